@@ -43,6 +43,9 @@ pub struct Args {
     /// A rig description to begin with; what must be filled in says so
     #[arg(long, value_name = "TOML")]
     write_rig: Option<PathBuf>,
+    /// The rows are a static sweep: an effort over a command or a speed, each row settled, without a time
+    #[arg(long, conflicts_with_all = ["time_from", "topic", "model"])]
+    sweep: bool,
     #[command(flatten)]
     model: arm::Model,
     /// Draw with ASCII characters only
@@ -72,6 +75,7 @@ Examples:
   rigproof inspect run.csv
   rigproof inspect run.csv --write-rig rig.toml
   rigproof inspect run.csv --write-rig rig.toml --model arm.urdf
+  rigproof inspect torque-over-current.csv --sweep --write-rig rig.toml
   rigproof inspect scope.txt --separator ';' --decimal ',' --header-lines 12 --json";
 
 /// Looks at a recording, and writes the beginning of a rig description if asked.
@@ -101,19 +105,27 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
     let known = Known {
         time: time.as_ref(),
         hints,
+        is_sweep: args.sweep,
         ..csv::Known::default()
     };
     let text = csv::read_text(&args.recording, &known)?;
     let (trace, dialect, remarks) = (text.trace, text.dialect, text.remarks);
     let pace = Pace::of(&trace.time_s);
-    let signals: Vec<SignalView> = trace.channels.into_iter().map(SignalView::of).collect();
+    let view = match args.sweep {
+        true => SignalView::of_sweep,
+        false => SignalView::of,
+    };
+    let signals: Vec<SignalView> = trace.channels.into_iter().map(view).collect();
     let signals: Vec<&SignalView> = signals.iter().collect();
     if let Some(file) = &args.write_rig {
         let text = begun(args, file, time.as_ref(), &signals)?;
         write_rig(file, &text)?;
     }
     if args.json {
-        let mut result = pace.json();
+        let mut result = match args.sweep {
+            true => json!({ "rows": trace.time_s.len() }),
+            false => pace.json(),
+        };
         result["file"] = json!(args.recording.display().to_string());
         result["read_as"] = reading::in_json(dialect);
         result["remarks"] = json!(remarks);
@@ -128,7 +140,7 @@ fn text(args: &Args) -> Result<Outcome, Failure> {
     show([
         head(&args.recording, trace.time_s.len(), signals.len(), &dialect),
         section("Reading", remarks.iter().map(|line| format!("  {line}"))),
-        section("Time", pace.lines()),
+        section("Time", pace.lines().into_iter().filter(|_| !args.sweep)),
         section("Channels", signal::lines(&signals, args.ascii, usize::MAX)),
         section("Next", [format!("  {}", next(args))]),
     ])
@@ -158,10 +170,12 @@ fn next(args: &Args) -> String {
             let command = shell::line(&["rigproof", "diagnose"], &[recording, ("--rig", file)]);
             format!("{command}   (check and complete {} first)", file.display())
         }
-        None => shell::line(
-            &["rigproof", "inspect"],
-            &[recording, ("--write-rig", Path::new("rig.toml"))],
-        ),
+        None => {
+            shell::line(
+                &["rigproof", "inspect"],
+                &[recording, ("--write-rig", Path::new("rig.toml"))],
+            ) + if args.sweep { " --sweep" } else { "" }
+        }
     }
 }
 
@@ -175,7 +189,10 @@ fn begun(
     let hints = args.reading.hints();
     let files = (args.recording.as_path(), rig);
     let arm = args.model.toml(files, time, &hints, signals)?;
-    Ok(arm.unwrap_or_else(|| skeleton::toml(&args.recording, time, &hints, signals)))
+    Ok(arm.unwrap_or_else(|| match args.sweep {
+        true => skeleton::of_sweep(&args.recording, &hints, signals),
+        false => skeleton::toml(&args.recording, time, &hints, signals),
+    }))
 }
 
 /// Writes the description unless one stands there: it may hold somebody's work.

@@ -55,6 +55,19 @@ impl SignalView {
         }
     }
 
+    /// A channel of a sweep, whose rows do not follow each other in time: their scatter is no noise.
+    pub fn of_sweep(channel: Channel) -> SignalView {
+        SignalView {
+            noise: None,
+            ..SignalView::of(channel)
+        }
+    }
+
+    /// Its samples, where they are at hand.
+    pub fn samples(&self) -> &[f64] {
+        &self.outline
+    }
+
     /// Of a channel that was summed up while its file went by: the grid is made by the least step between neighbours,
     /// and the values that were kept are looked at.
     pub fn of_summary(channel: ChannelSummary) -> SignalView {

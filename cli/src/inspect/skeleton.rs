@@ -1,6 +1,8 @@
 //! This file begins a rig description from a recording: what a name or a unit suggests is called a guess, and what
 //! nothing suggests is to be filled in, or `diagnose` refuses.
 
+mod sweep;
+
 use std::path::Path;
 
 use rigproof_spec::units::{Dimension, Unit};
@@ -9,6 +11,7 @@ use rigproof_trace::rig::{FILL_IN, SCHEMA_LINE};
 
 use super::signal::SignalView;
 use crate::text::number::significant;
+pub use sweep::of_sweep;
 
 /// A role, what its channel is measured in, and what people call it.
 struct Role {

@@ -389,7 +389,7 @@ fn no_time(columns: &[Column], layout: &Layout) -> String {
     only_column(columns, layout).unwrap_or_else(|| {
         let listed = quoted(columns.iter().map(|column| column.name.as_str()));
         format!(
-            "there is no time column; call it `time (s)` or `t_s`, or name it: `--time-from NAME`, in a rig file `time = {{ channel = \"NAME\" }}`; the columns are {listed}"
+            "there is no time column; call it `time (s)` or `t_s`, or name it: `--time-from NAME`, in a rig file `time = {{ channel = \"NAME\" }}`; the settled rows of a static sweep need none: `inspect --sweep`, in a rig file `drive = \"static\"`; the columns are {listed}"
         )
     })
 }

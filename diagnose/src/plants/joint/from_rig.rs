@@ -31,10 +31,7 @@ pub(super) fn bare(
     let gain = rig.parameters.map_or(1.0, |p| p.command_gain.value);
     let signals = signals(rig, recording, gain, behind);
     let mut run = match rig.is_sweep() {
-        true => sweep::align(
-            &signals,
-            recording.speed.as_ref().map(|s| s.samples.as_slice()),
-        )?,
+        true => sweep::align(&signals, recording)?,
         false => align(&signals)?,
     };
     run.servo = Servoed::of(recording, gain, &run);

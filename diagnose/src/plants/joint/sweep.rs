@@ -14,6 +14,7 @@ use crate::weak::Windows;
 use rigproof_model::effects::Instant;
 use rigproof_model::effects::facts::{Facts, Family};
 use rigproof_spec::effect::Mechanism;
+use rigproof_trace::rig::Recording;
 
 /// The time from row to row, s. No law of a sweep goes by time.
 const ROW_S: f64 = 1.0;
@@ -22,7 +23,12 @@ const ROW_S: f64 = 1.0;
 ///
 /// # Errors
 /// Too many efforts are missing.
-pub(super) fn align(signals: &Signals, speeds: Option<&[f64]>) -> Result<JointRun, Fault> {
+pub(super) fn align(signals: &Signals, recording: &Recording) -> Result<JointRun, Fault> {
+    let speeds = recording.speed.as_ref().map(|own| own.samples.as_slice());
+    let is_stated = recording
+        .force
+        .as_ref()
+        .is_some_and(|own| own.noise.is_some());
     let all = signals.effort.len();
     check_missing("effort", &signals.time_s, &signals.effort)?;
     let others = [&signals.current, &signals.predicted];
@@ -41,6 +47,11 @@ pub(super) fn align(signals: &Signals, speeds: Option<&[f64]>) -> Result<JointRu
     let current = signals.current.as_deref().map(of);
     let scatter = scatter(&effort, current.as_deref(), speeds.as_deref()).unwrap_or(0.0);
     let rounding = smallest_step(&effort) / 12f64.sqrt();
+    let least = signals.effort_noise.unwrap_or(rounding);
+    let effort_noise = match is_stated {
+        true => least,
+        false => scatter.max(least),
+    };
     let motion = (0..kept.len()).map(|k| {
         let speed = speeds.as_ref().and_then(|own| own.get(k)).copied();
         Instant {
@@ -65,7 +76,7 @@ pub(super) fn align(signals: &Signals, speeds: Option<&[f64]>) -> Result<JointRu
         current,
         law: None,
         position_noise: 0.0,
-        effort_noise: signals.effort_noise.unwrap_or(scatter.max(rounding)),
+        effort_noise,
         recorded: vec![true; kept.len()],
         speed_floor: 0.0,
         untold_speed: vec![0.0; kept.len()],
