@@ -12,6 +12,7 @@ mod five_bar;
 mod laws;
 mod recording;
 mod script;
+mod sweep;
 
 use rayon::prelude::*;
 use rigproof_diagnose::report::{Number, Report, Verdict};
@@ -272,6 +273,55 @@ fn what_a_damper_under_volts_hides_is_named_with_its_number() {
         let (found, its_unit) = damper::number(&report, mechanism, parameter).unwrap();
         assert_eq!(its_unit, unit, "{mechanism}");
         let is_near = |number: f64| (found / number - 1.0).abs() < 0.01;
+        assert!(number.is_none_or(is_near), "{hidden:?}: {found}");
+    }
+}
+
+#[test]
+fn what_a_static_sweep_hides_is_named_without_a_time() {
+    use sweep::Hidden;
+    let cases = [
+        (Hidden::Nothing, None),
+        (Hidden::Bends(1.5), Some(("saturation", "limit", None))),
+        (
+            Hidden::Square,
+            Some(("command_exponent", "exponent", Some(2.0))),
+        ),
+        (
+            Hidden::Remembers(0.13),
+            Some(("current_hysteresis", "half_width", None)),
+        ),
+        (
+            Hidden::Drag(0.021),
+            Some(("viscous", "coefficient", Some(0.021))),
+        ),
+        (
+            Hidden::Peak(0.31, 0.23, 1.7),
+            Some(("stribeck", "peak", Some(0.23))),
+        ),
+    ];
+    for (hidden, expected) in cases {
+        let report = sweep::recording(hidden, 59).diagnosed();
+        println!("{}", said(&format!("{hidden:?}"), &report));
+        assert_eq!(report.remarks[0].what, "swept");
+        let Some((mechanism, parameter, number)) = expected else {
+            assert_eq!(report.verdict, Verdict::Consistent, "{}", report.summary);
+            continue;
+        };
+        let sure = report.effects.iter().filter(|own| own.status == "named");
+        let sure: Vec<&str> = sure.map(|own| own.mechanism).collect();
+        let also: &[&str] = match hidden {
+            Hidden::Peak(..) => &["dry_offset"],
+            _ => &[],
+        };
+        assert!(sure.contains(&mechanism), "{}", report.summary);
+        assert!(
+            sure.iter()
+                .all(|own| *own == mechanism || also.contains(own)),
+            "{sure:?}"
+        );
+        let (found, _) = damper::number(&report, mechanism, parameter).unwrap();
+        let is_near = |number: f64| (found / number - 1.0).abs() < 0.1;
         assert!(number.is_none_or(is_near), "{hidden:?}: {found}");
     }
 }

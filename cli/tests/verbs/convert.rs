@@ -186,7 +186,7 @@ fn a_rig_handed_another_plants_recording_says_so() {
 
 #[test]
 fn every_rig_reads_back_from_what_is_written() {
-    for name in ["emps.toml", "mr-damper.toml", "bouc-wen.toml"] {
+    for name in ["emps.toml", "mr-damper.toml", "bouc-wen.toml", "sweep.toml"] {
         let rig = rig(name);
         assert_eq!(Rig::parse(&rig.to_toml(), Path::new(name)).unwrap(), rig);
     }

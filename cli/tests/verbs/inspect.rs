@@ -324,3 +324,33 @@ fn many_topics_are_a_line_each() {
     );
     assert!(text.contains("--topic "), "{text}");
 }
+
+#[test]
+fn the_rows_of_a_sweep_need_no_time_and_its_law_is_found_from_nothing() {
+    let desk = Desk::new();
+    // A force that grows with the square of the command, with a little scatter.
+    let rows = (0..60).map(|k| {
+        let volts = 0.25 * f64::from(k % 20);
+        let scatter = 0.4 * libm::sin(f64::from(k * k));
+        format!("{volts},{:.3}\n", 12.0 + 4.0 * volts * volts + scatter)
+    });
+    desk.put(
+        "sweep.csv",
+        &("u (V),force (N)\n".to_owned() + &rows.collect::<String>()),
+    );
+    let answer = desk.rigproof("inspect sweep.csv");
+    let message = String::from_utf8(answer.stderr).unwrap();
+    assert!(message.contains("`inspect --sweep`"), "{message}");
+    let said = desk.prints("inspect sweep.csv --sweep --write-rig rig.toml", 0);
+    assert!(!said.contains("Time"), "{said}");
+    let report = desk.json("diagnose sweep.csv --rig rig.toml --json", 0);
+    let effects = report["effects"].as_array().unwrap();
+    let names: Vec<&str> = effects
+        .iter()
+        .map(|own| own["mechanism"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["command_exponent"], "{}", report["summary"]);
+    let exponent = &effects[0]["parameters"]["exponent"]["value"];
+    assert_relative_eq!(exponent.as_f64().unwrap(), 2.0, max_relative = 0.05);
+    desk.prints("simulate sweep.csv --rig rig.toml", 0);
+}
