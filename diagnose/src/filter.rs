@@ -159,11 +159,17 @@ pub fn white_noise(signal: &[f64]) -> Option<f64> {
         let pairs = differences.iter().zip(differences.iter().skip(1));
         differences = pairs.map(|(own, next)| next - own).collect();
     }
-    let mut sizes: Vec<f64> = differences.iter().map(|own| own.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    // The median of the magnitude of a normal variable, and the squared binomials of the sixth row.
-    let noise = sizes.get(sizes.len() / 2)? / 0.674_489_750_196_081_7 / 924_f64.sqrt();
+    // The squared binomials of the sixth row.
+    let noise = deviation(differences)? / 924_f64.sqrt();
     (noise > 0.0).then_some(noise)
+}
+
+/// The standard deviation of normal values about 0, by the median of their magnitudes.
+pub fn deviation(values: Vec<f64>) -> Option<f64> {
+    let mut sizes: Vec<f64> = values.into_iter().map(f64::abs).collect();
+    sizes.sort_by(f64::total_cmp);
+    // The median of the magnitude of a normal variable.
+    Some(sizes.get(sizes.len() / 2)? / 0.674_489_750_196_081_7)
 }
 
 /// Keeps every `factor`-th sample after the Chebyshev anti-alias filter of the published protocols

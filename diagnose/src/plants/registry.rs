@@ -18,7 +18,6 @@ macro_rules! plants {
     ($(#[doc = $doc:literal] $name:ident($plant:ty),)+) => {
         /// What a rig file describes.
         #[derive(Clone, Debug, PartialEq)]
-        #[expect(clippy::large_enum_variant, reason = "few are ever made")]
         pub enum Description {
             $(#[doc = $doc] $name($plant),)+
         }

@@ -9,6 +9,8 @@ rules! {
     LONGEST_GAP_STEPS: f64 = 8.0, "samples", REASON;
     /// Share of samples that may be missing.
     MOST_MISSING: f64 = 0.02, "share", REASON;
+    /// Rows of a static sweep are of about one speed within this share of the greatest.
+    SPEEDS_ALIKE: f64 = 0.05, "share", REASON;
     /// Time for which a working channel may repeat one value to the bit.
     LONGEST_FREEZE_S: f64 = 0.25, "s", REASON;
     /// A constant position is a fault if it ends in a jump of more than this many of the usual steps around it.

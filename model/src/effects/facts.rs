@@ -398,6 +398,10 @@ mod tests {
             Alone::Loaded => "on an axis, and on a bench with a simulated effort",
             Alone::WithInertia => "on an axis of known inertia",
         };
+        let sweep = match facts.in_a_sweep {
+            true => "; in a static sweep",
+            false => "",
+        };
         let five_bar = match facts.asked.five_bar {
             Where::Nowhere => "no",
             Where::Brakes => "at brakes",
@@ -413,7 +417,7 @@ mod tests {
             (false, false) => "no",
         };
         format!(
-            "| `{}` | {} | {forms} | {limit} | {alone} | {five_bar} | {arm} | {} |",
+            "| `{}` | {} | {forms} | {limit} | {alone}{sweep} | {five_bar} | {arm} | {} |",
             entry.mechanism.name(),
             facts.family.name(),
             once(&entry.mechanism.called())

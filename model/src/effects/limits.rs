@@ -12,7 +12,6 @@ pub(super) const ENTRY: Entry = Entry {
     refuted_by: "an effort that grows with the command beyond the limit",
     equation: "e = gain·u cut at ±limit, or gain·u/(1 + |gain·u/limit|^sharpness)^(1/sharpness) where it bends towards it",
     facts: Facts {
-        in_a_sweep: true,
         in_sets: true,
         usual: Usual::Frequent,
         shapes: Shapes::EffortLimit,

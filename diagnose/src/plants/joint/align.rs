@@ -93,7 +93,6 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
     if signals.plant == PlantKind::Axis {
         forget_sense_at_reversals(&mut motion);
     }
-    let pairs = recorded_p.into_iter().zip(recorded_e);
     let run = JointRun {
         plant: signals.plant,
         kind: signals.kind,
@@ -111,7 +110,7 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
         law: None,
         position_noise,
         effort_noise,
-        recorded: pairs.map(|(a, b)| a && b).collect(),
+        recorded: both(recorded_p, recorded_e),
         speed_floor,
         untold_speed,
         metered_by: Vec::new(),
@@ -121,6 +120,12 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
     };
     check_sign(&run)?;
     Ok(run)
+}
+
+/// Whether each sample of both signals was recorded.
+fn both(one: Vec<bool>, other: Vec<bool>) -> Vec<bool> {
+    let pairs = one.into_iter().zip(other);
+    pairs.map(|(one, other)| one && other).collect()
 }
 
 /// Repairs jumps of the position and moves samples to the grid of their time stamps. Returns the

@@ -1,20 +1,21 @@
 //! This file aligns a static sweep: rows that were taken after everything had settled, without a
 //! time.
 
+mod regimes;
+mod scatter;
+
 use super::align::Signals;
 use super::inertia::Inertia;
 use super::run::JointRun;
 use crate::align::{Fault, check_missing, smallest_step};
-use crate::cause::{Cause, Place};
+use crate::cause::Cause;
 use crate::continuity::Remark;
-use crate::filter::ends;
-use crate::locate::{Cell, Regimes};
 use crate::rules::FEWEST_BLOCKS;
-use crate::weak::Windows;
 use rigproof_model::effects::Instant;
 use rigproof_model::effects::facts::{Facts, Family};
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::Recording;
+use scatter::scatter;
 
 /// The time from row to row, s. No law of a sweep goes by time.
 const ROW_S: f64 = 1.0;
@@ -87,58 +88,6 @@ pub(super) fn align(signals: &Signals, recording: &Recording) -> Result<JointRun
         effort,
     })
 }
-
-/// About the standard deviation of the noise of an effort: how far a row lies from the straight line
-/// between its neighbours (Gasser, Sroka and Jennen-Steinmetz, Biometrika 73, 1986).
-///
-/// Neighbours are rows of about one speed, next to each other in command, on the same way of the
-/// sweep, up or down; without a command, next to each other in speed. `None` where no row has two.
-fn scatter(effort: &[f64], command: Option<&[f64]>, speed: Option<&[f64]>) -> Option<f64> {
-    let over = command.or(speed)?;
-    let [low, high] = ends(speed.unwrap_or_default().iter().copied());
-    let alike = SPEEDS_ALIKE * high.abs().max(low.abs());
-    let near = |k: usize| match (command, speed) {
-        (Some(_), Some(speed)) => speed.get(k).map_or(0.0, |own| (own / alike).round()),
-        _ => 0.0,
-    };
-    let at = |k: usize| over.get(k).copied().unwrap_or(0.0);
-    let way = |k: usize| match k {
-        0 => at(1) >= at(0),
-        _ => at(k) >= at(k - 1),
-    };
-    let mut order: Vec<usize> = (0..effort.len()).collect();
-    let place = |k: usize| (near(k), f64::from(u8::from(way(k))), at(k));
-    let by = |a: &usize, b: &usize| {
-        let (one, other) = (place(*a), place(*b));
-        let firsts = one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1));
-        firsts.then(one.2.total_cmp(&other.2))
-    };
-    order.sort_by(by);
-    let mut off: Vec<f64> = Vec::new();
-    for three in order.windows(3) {
-        let &[a, b, c] = three else { continue };
-        if (near(a), way(a)) != (near(c), way(c)) {
-            continue;
-        }
-        let width = at(c) - at(a);
-        let share = match width > 0.0 {
-            true => (at(b) - at(a)) / width,
-            false => 0.5,
-        };
-        let value = |k: usize| effort.get(k).copied().unwrap_or(0.0);
-        let line = (1.0 - share) * value(a) + share * value(c);
-        let spread = (1.0 + share.powi(2) + (1.0 - share).powi(2)).sqrt();
-        off.push((value(b) - line).abs() / spread);
-    }
-    off.sort_by(f64::total_cmp);
-    Some(off.get(off.len() / 2)? / MEDIAN_OF_NORMAL)
-}
-
-/// Speeds within this share of the greatest are about one.
-const SPEEDS_ALIKE: f64 = 0.05;
-
-/// The median magnitude of a normal variable of standard deviation 1.
-const MEDIAN_OF_NORMAL: f64 = 0.674_489_750_196_081_7;
 
 /// The direction of a speed; 0 of none.
 fn sense(speed: f64) -> f64 {
@@ -215,63 +164,5 @@ impl JointRun {
             true => Mechanism::DryOffset,
             false => twin,
         })
-    }
-
-    /// The regimes of a static sweep: by command and the way it goes, and by speed.
-    pub(super) fn regimes_of_sweep(&self, windows: &Windows) -> Regimes {
-        let none = Vec::new();
-        let commands = self.current.as_ref().unwrap_or(&none);
-        let [low, high] = ends(commands.iter().copied());
-        let third = |k: usize| {
-            let share = commands
-                .get(k)
-                .map_or(-1.0, |own| (own - low) / (high - low).max(1e-300));
-            (3.0 * share).floor().clamp(-1.0, 2.0) as i32
-        };
-        let before = self.before();
-        let way = |k: usize| -> f64 {
-            let pair = commands.get(k).zip(before.get(k).copied().flatten());
-            pair.map_or(0.0, |(now, before)| now - before)
-        };
-        let speed = |k: usize| self.motion.get(k).map_or(0.0, |now| now.speed);
-        let [slowest, fastest] = ends(self.motion.iter().map(|now| now.speed.abs()));
-        let cell = |label, rule: &dyn Fn(usize) -> bool| Cell {
-            label,
-            at: Place::Whole,
-            member: windows.centres.iter().map(|row| rule(*row)).collect(),
-        };
-        let middle = 0.5 * (slowest + fastest);
-        Regimes {
-            output: "metered effort",
-            counted: vec![true; windows.centres.len()],
-            cells: vec![
-                cell("lowest third of the command", &|k| third(k) == 0),
-                cell("middle third of the command", &|k| third(k) == 1),
-                cell("highest third of the command", &|k| third(k) == 2),
-                cell("rows where the command rises", &|k| way(k) > 0.0),
-                cell("rows where the command falls", &|k| way(k) < 0.0),
-                cell("slower half of the speeds", &|k| speed(k).abs() < middle),
-                cell("faster half of the speeds", &|k| speed(k).abs() > middle),
-                cell("rows in the positive sense", &|k| speed(k) > 0.0),
-                cell("rows in the negative sense", &|k| speed(k) < 0.0),
-            ],
-        }
-    }
-
-    /// The command of the row before each in the sweep, where it is here.
-    fn before(&self) -> Vec<Option<f64>> {
-        let (Some(rows), Some(commands)) = (&self.rows, &self.current) else {
-            return Vec::new();
-        };
-        let mut of_row = vec![None; rows.iter().max().map_or(0, |last| last + 1)];
-        for (row, command) in rows.iter().zip(commands) {
-            if let Some(own) = of_row.get_mut(*row) {
-                *own = Some(*command);
-            }
-        }
-        let each = rows
-            .iter()
-            .map(|row| of_row.get(row.checked_sub(1)?).copied());
-        each.map(Option::flatten).collect()
     }
 }
