@@ -18,13 +18,13 @@ macro_rules! plants {
     ($(#[doc = $doc:literal] $name:ident($plant:ty),)+) => {
         /// What a rig file describes.
         #[derive(Clone, Debug, PartialEq)]
+        #[expect(clippy::large_enum_variant, reason = "few are ever made")]
         pub enum Description {
             $(#[doc = $doc] $name($plant),)+
         }
 
         /// A recording in SI units.
         #[derive(Clone, Debug, PartialEq)]
-        #[expect(clippy::large_enum_variant, reason = "few are ever made")]
         pub enum Measured {
             $(#[doc = $doc] $name(<$plant as Plant>::Recording),)+
         }
