@@ -97,6 +97,7 @@ impl Names {
             Form::Drift | Form::Creep => (&["bias_drift"], &["constant_bias"]),
             Form::Spring => (&["spring"], &[]),
             Form::Anchored => (&["spring"], &["constant_bias"]),
+            Form::Tether => (&["joint_stop"], &[]),
             Form::Cubic | Form::Hardening => (&["nonlinear_spring"], &["spring"]),
             Form::Ripple | Form::TwoOrders | Form::Toothed => (&["ripple"], &[]),
             Form::Uneven => (&["uneven_friction"], &["dry_offset"]),

@@ -18,7 +18,7 @@ use crate::rules::{
     MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT,
     PEAK_SPEEDS, PLAYED_SHARES, RESONANCE_DAMPINGS, RESONANCE_STEPS, RESONANCES, RISE_TIMES_S,
     ROUND_LIMIT_SHARES, SHARPNESSES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS,
-    SLOWEST_RESONANCE,
+    SLOWEST_RESONANCE, STOP_SHARES,
 };
 use crate::weak::Windows;
 use periods::{all_periods, pitches};
@@ -181,6 +181,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             &geometric(low * travel, high * travel, count),
             middle(run.motion(cause.at)),
         ),
+        Shapes::Stop => stops(run.motion(cause.at)),
         Shapes::Resonance => resonances(step_s),
         Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
@@ -251,6 +252,16 @@ fn edges(times: &[f64]) -> Vec<Vec<f64>> {
 fn lashes(widths: &[f64], middle: f64) -> Vec<Vec<f64>> {
     let each = widths.iter();
     each.flat_map(|own| [vec![*own], vec![*own, middle]])
+        .collect()
+}
+
+/// Positions where a stop may begin, from the middle of the travel to near its ends, with its side.
+fn stops(motion: &[Instant]) -> Vec<Vec<f64>> {
+    let [low, high] = ends(motion.iter().map(|now| now.position));
+    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+    let shares = STOP_SHARES.into_iter();
+    let each = shares.flat_map(|share| [1.0, -1.0].map(|side| (share, side)));
+    each.map(|(share, side)| vec![middle + side * share * half, side])
         .collect()
 }
 

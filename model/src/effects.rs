@@ -18,6 +18,7 @@ mod eccentric_encoder;
 mod encoder;
 pub mod facts;
 mod hysteresis;
+mod joint_stop;
 mod lag;
 mod limits;
 mod linkage;
@@ -272,6 +273,7 @@ pub const LIBRARY: &[Entry] = &[
     uneven_friction::ENTRY,
     spring::ENTRY,
     nonlinear_spring::ENTRY,
+    joint_stop::ENTRY,
     bias_drift::ENTRY,
     lag::ENTRY,
     lag::GAIN_ENTRY,

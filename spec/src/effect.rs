@@ -164,6 +164,12 @@ vocabulary! {
     ForceRotation = "force_rotation" called "rotated force sensor" | "force angle" [needed("angle", Angle)],
     /// Cubic spring.
     NonlinearSpring = "nonlinear_spring" called "cubic (Duffing) spring" | "duffing" | "cubic spring" [needed("cubic", EffortPerCubicTravel)],
+    /// A stop, or a tether that is slack before it: a spring beyond a position.
+    JointStop = "joint_stop" called "joint stop or tether" | "end stop" | "hard stop" | "bumper" [
+        needed("stiffness", EffortPerTravel),
+        needed("position", Travel),
+        needed("side", Number),
+    ],
     /// Friction proportional to a power of speed.
     VelocityPower = "velocity_power" called "drag by a power of speed" | "quadratic drag" | "turbulent drag" [
         needed("coefficient", Effort),

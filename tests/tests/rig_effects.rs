@@ -50,6 +50,7 @@ fn others() -> Vec<JointEffect> {
         at(Joint::A, UnevenFriction, &[0.031, -0.023, 0.31]),
         at(Joint::E, Spring, &[0.113]),
         at(Joint::C, NonlinearSpring, &[0.037]),
+        at(Joint::A, JointStop, &[0.131, 0.71, 1.0]),
         at(Joint::B, BiasDrift, &[0.071, 1.3]),
         at(Joint::A, Lag, &[0.029]),
         at(Joint::E, DeadTime, &[0.0173]),

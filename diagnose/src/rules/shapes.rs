@@ -123,6 +123,8 @@ rules! {
     RESONANCES: usize = 12, "resonances", DRIVEN;
     /// Axis: damping ratios of a resonance that are tried.
     RESONANCE_DAMPINGS: [f64; 2] = [0.03, 0.12], "1", DRIVEN;
+    /// Positions of a stop that are tried, as shares of half the travel from its middle: closer where a stop touches seldom.
+    STOP_SHARES: [f64; 9] = [0.0, 0.15, 0.3, 0.45, 0.6, 0.7, 0.8, 0.87, 0.93], "share", REASON;
     /// Shares of a brake's current that go through a play (hysteresis) that are tried.
     PLAYED_SHARES: [f64; 2] = [0.3, 0.7], "share", REASON;
     /// Five-bar: currents below which the two branches of a hysteresis meet: a small one, most of the range, and one beyond all that flows.

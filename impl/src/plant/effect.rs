@@ -100,6 +100,12 @@ pub enum Law {
     Spring { stiffness: f64, rest: f64 },
     /// cubic·q³.
     NonlinearSpring { cubic: f64 },
+    /// stiffness·(q − position) beyond the position, on the side of the sign.
+    JointStop {
+        stiffness: f64,
+        position: f64,
+        side: f64,
+    },
     /// rate·settling·(1 − exp(−t/settling)); rate·t where settling is infinite.
     BiasDrift { rate: f64, settling: f64 },
     /// The same as a share of a brake's torque.
@@ -169,6 +175,11 @@ impl Law {
             },
             (Mechanism::Spring, &[stiffness, rest]) => Law::Spring { stiffness, rest },
             (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
+            (Mechanism::JointStop, &[stiffness, position, side]) => Law::JointStop {
+                stiffness,
+                position,
+                side: side.signum(),
+            },
             (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift {
                 rate,
                 settling: f64::INFINITY,
@@ -278,6 +289,14 @@ impl Law {
             } => wave(sine, cosine, now.position, period),
             Law::Spring { stiffness, rest } => stiffness * (now.position - rest),
             Law::NonlinearSpring { cubic } => cubic * now.position * now.position * now.position,
+            Law::JointStop {
+                stiffness,
+                position,
+                side,
+            } => {
+                let beyond = side * (now.position - position);
+                stiffness * side * if beyond > 0.0 { beyond } else { 0.0 }
+            }
             Law::BiasDrift { rate, settling } => rate * settled(now.time_s, settling),
             Law::TorqueDrift { .. } => 0.0,
             Law::Overshoot { .. } if memory == NOT_MOVED => 0.0,

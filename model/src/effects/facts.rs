@@ -264,6 +264,8 @@ pub enum Shapes {
         /// Their number.
         count: usize,
     },
+    /// Positions inside the travel, each with the side beyond it.
+    Stop,
     /// Resonances and damping ratios.
     Resonance,
     /// Half widths of a current hysteresis, A: a geometric progression. A plant may add the current

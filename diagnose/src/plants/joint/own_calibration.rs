@@ -43,6 +43,7 @@ const LEFT_OUT: &[(Mechanism, &[f64], &[PlantKind])] = &[
     // Of an axis that has no friction it would drive.
     (UnevenFriction, &[0.91, -0.67, 0.11], BENCH),
     (NonlinearSpring, &[71.0], BOTH),
+    (JointStop, &[5.3, 0.23, 1.0], BOTH),
     (BiasDrift, &[0.17], BOTH),
     (BiasDrift, &[0.53, 1.7], BOTH),
     (Lag, &[0.021], AXIS),
