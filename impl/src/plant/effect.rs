@@ -169,17 +169,6 @@ impl Law {
                     period,
                 }
             }
-            (Mechanism::Spring, &[stiffness]) => Law::Spring {
-                stiffness,
-                rest: 0.0,
-            },
-            (Mechanism::Spring, &[stiffness, rest]) => Law::Spring { stiffness, rest },
-            (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
-            (Mechanism::JointStop, &[stiffness, position, side]) => Law::JointStop {
-                stiffness,
-                position,
-                side: side.signum(),
-            },
             (Mechanism::BiasDrift, &[rate]) => Law::BiasDrift {
                 rate,
                 settling: f64::INFINITY,
@@ -247,9 +236,27 @@ impl Law {
             (Mechanism::Settling, &[level, travel]) if travel > 0.0 => {
                 Law::Settling { level, travel }
             }
-            _ => return None,
+            _ => return Law::of_position(mechanism, parameters),
         };
         Some(law)
+    }
+
+    /// The law of a mechanism whose force depends on the position alone and does not repeat.
+    const fn of_position(mechanism: Mechanism, parameters: &[f64]) -> Option<Law> {
+        Some(match (mechanism, parameters) {
+            (Mechanism::Spring, &[stiffness]) => Law::Spring {
+                stiffness,
+                rest: 0.0,
+            },
+            (Mechanism::Spring, &[stiffness, rest]) => Law::Spring { stiffness, rest },
+            (Mechanism::NonlinearSpring, &[cubic]) => Law::NonlinearSpring { cubic },
+            (Mechanism::JointStop, &[stiffness, position, side]) => Law::JointStop {
+                stiffness,
+                position,
+                side: side.signum(),
+            },
+            _ => return None,
+        })
     }
 
     /// The memory before any motion.

@@ -38,7 +38,7 @@ pub const MECHANISMS: &[&[Form]] = &[
     &[Form::Repeated, Form::Clock],
 ];
 
-/// Physics outside the library.
+/// Physics outside the library, but for the tether, which has a name since 0305 and stays where it was drawn.
 pub const FOREIGN: &[Form] = &[
     Form::Disturbance,
     Form::DeadZone,

@@ -57,7 +57,7 @@ const SHARES: &[Form] = &[
 /// About the torque of a brake at 1 A, N·m.
 const GREATEST_NM: f64 = 6.0;
 
-/// Physics outside the library.
+/// Physics outside the library, but for the tether, which has a name since 0305 and stays where it was drawn.
 const FOREIGN: &[Form] = &[Form::Disturbance, Form::Tether];
 
 /// A bench with what it hides.
