@@ -30,11 +30,11 @@ def answer(names, left_nm):
     return {"verdict": "explained" if effects else quiet, "effects": effects}
 
 
-def one(program, out, seed, window_s):
+def one(program, out, seed, window_s, forms):
     """The scores of a seed's recording, (way, setting) → score, and the root mean square of what the nominal model lacks, N·m."""
     folder = out / str(seed)
     if not (folder / "answer.sealed").exists():
-        run(program, "blind", "make", "--plant", "rig", "--seed", str(seed), "--out", str(folder))
+        run(program, "blind", "make", "--plant", "rig", "--seed", str(seed), "--forms", forms, "--out", str(folder))
     recording = rig_recording.read(folder)
     problem = None if recording.fault else rig_columns.problem(recording, window_s)
     if problem is not None and problem.pushed_nm @ (problem.pushed_nm - problem.lacking_nm) < 0:
@@ -57,7 +57,9 @@ def scored(program, folder, report):
     """The score as `blind score` has it; it alone opens the seal."""
     path = folder / "peer.json"
     path.write_text(json.dumps(report))
-    return json.loads(run(program, "blind", "score", "--json", str(folder / "answer.sealed"), str(path)))["score"]
+    said = json.loads(run(program, "blind", "score", "--json", str(folder / "answer.sealed"), str(path)))
+    # Of other forms the names are judged: right, incomplete, a false name, silent or unseen.
+    return said["score"] if "score" in said else said["judgement"]
 
 
 def run(program, *words):
@@ -67,6 +69,8 @@ def run(program, *words):
 
 def is_right(score):
     """What the trial does not call a miss."""
+    if "outcome" in score:
+        return score["outcome"] == "right"
     quiet = not score["named"]
     right = score["flagged"] and quiet if score["stratum"] == "not_in_library" else score["exact"]
     return right and not score["false_names"]
@@ -87,13 +91,41 @@ COLUMNS = [
 ]
 
 
+def judged(outcome):
+    return lambda score: score["outcome"] == outcome
+
+
+# The same for physics in other forms.
+JUDGED = [
+    ("false name where nothing is hidden", ("nothing",), judged("false_name")),
+    ("single: right", ("single",), is_right),
+    ("two or three: right", ("two", "three"), is_right),
+    ("late: right", ("late_onset",), is_right),
+    ("outside the library: flagged, not named", ("not_in_library",), is_right),
+    ("incomplete, of all", None, judged("incomplete")),
+    ("silent, of all", None, judged("silent")),
+    ("a false name, of all", None, judged("false_name")),
+    ("right, of all", None, is_right),
+]
+
+
+def columns(scores):
+    return JUDGED if "outcome" in scores[0] else COLUMNS
+
+
+def false_names(score):
+    if "outcome" in score:
+        return sum(not fine for _, _, fine in score["names"])
+    return len(score["false_names"])
+
+
 def line(title, scores):
     cells = []
-    for _, strata, counts in COLUMNS:
+    for _, strata, counts in columns(scores):
         about = [s for s in scores if strata is None or s["stratum"] in strata]
         cells.append(f"{sum(map(counts, about))} of {len(about)}")
-    false_names = np.mean([len(s["false_names"]) for s in scores])
-    return "| " + " | ".join([title, *cells, f"{false_names:.2f}"]) + " |"
+    each = np.mean([false_names(score) for score in scores])
+    return "| " + " | ".join([title, *cells, f"{each:.2f}"]) + " |"
 
 
 # The settings that were right most often on seeds 1000 to 1100, for a table of other seeds.
@@ -105,7 +137,7 @@ CHOSEN = {
 
 
 def table(by_way, ours):
-    heads = ["way", *(words for words, _, _ in COLUMNS), "false names a recording"]
+    heads = ["way", *(words for words, _, _ in columns(next(iter(by_way.values())))), "false names a recording"]
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
     for way in dict.fromkeys(way for way, _ in by_way):
         settings = {setting: scores for (name, setting), scores in by_way.items() if name == way}
@@ -126,14 +158,16 @@ def told(seed, case):
     lines = []
     for way, score in case.items():
         words = ", ".join(way) if way else "refused"
-        names = ", ".join(score["named"]) or score["verdict"]
+        named = score["named"] if "named" in score else [name for name, _, _ in score["names"]]
+        names = ", ".join(named) or score.get("verdict", "nothing")
         lines.append(f"{seed} {score['stratum']} | {', '.join(score['hidden']) or '-'} | {words} | {names}\n")
     return "".join(lines)
 
 
 def diagnosed(path, seeds):
     """Scores of `blind trial --plant rig --details --json` of the same seeds."""
-    scores = {case["seed"]: case["score"] for case in json.loads(path.read_text())["cases"]}
+    cases = json.loads(path.read_text())["cases"]
+    scores = {case["seed"]: case.get("score") or case["judgement"] for case in cases}
     return [scores[seed] for seed in seeds]
 
 
@@ -142,15 +176,16 @@ def main():
     parser.add_argument("program", type=Path, help="the program `rigproof`")
     parser.add_argument("out", type=Path, help="folder for recordings and scores")
     parser.add_argument("--seeds", default="1000..1101", help="FIRST..END, END not among them")
+    parser.add_argument("--forms", choices=("usual", "other"), default="usual", help="forms of what is hidden")
     parser.add_argument("--window-s", type=float, default=0.08, help="length of the Savitzky-Golay window")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--ours", type=Path, help="what `rigproof blind trial --plant rig --details --json` printed for these seeds")
+    parser.add_argument("--ours", type=Path, help="what `rigproof blind trial --plant rig --details --json` printed for these seeds, with the same --forms")
     choice = parser.parse_args()
     first, end = map(int, choice.seeds.split(".."))
     choice.out.mkdir(parents=True, exist_ok=True)
     seeds = range(first, end)
     with ProcessPoolExecutor(choice.jobs) as pool:
-        done = list(pool.map(one, *zip(*((choice.program, choice.out, seed, choice.window_s) for seed in seeds))))
+        done = list(pool.map(one, *zip(*((choice.program, choice.out, seed, choice.window_s, choice.forms) for seed in seeds))))
     cases = [case for case, _ in done]
     by_way = {way: [] for case in cases for way in case if way is not None}
     for case in cases:

@@ -12,10 +12,16 @@ use rigproof_trace::store::read_text;
 use super::signal::SignalView;
 use super::skeleton::{hinted, plain, string};
 use crate::outcome::Failure;
+use crate::text::number::significant;
 
 /// What a column is called that holds a position, and one that holds an effort.
 const POSITION: [&str; 6] = ["q", "position", "pos", "theta", "angle", "joint"];
 const EFFORT: [&str; 5] = ["tau", "effort", "torque", "trq", "force"];
+/// What stands in the name of a column of the motor's side of a gear, and of a sensor behind it.
+const MOTOR: [&str; 4] = ["motor", "rotor", "qm", "thetam"];
+const SENSOR: [&str; 5] = ["sensor", "sensed", "measured", "meas", "jts"];
+/// A motor that turns this many times as far as its joint, at least, has a gear ratio that can be read off.
+const LEAST_RATIO: f64 = 1.5;
 
 /// The model that an arm is described by.
 #[derive(Clone, clap::Args)]
@@ -80,11 +86,14 @@ impl Model {
             }
             let of =
                 |words: &[&str], other: &[&str]| found(signals, (&joint.name, k + 1), words, other);
-            let position = of(&POSITION, &EFFORT);
-            let effort = of(&EFFORT, &POSITION);
-            used.extend(position.iter().chain(&effort).map(|own| own.name.as_str()));
+            let (position, motor) = sides(of(&POSITION, &EFFORT));
+            let (effort, sensor) = sides(of(&EFFORT, &POSITION));
+            let of_gear = [motor, sensor];
+            let both = [position, effort].into_iter().chain(of_gear).flatten();
+            used.extend(both.map(|own| own.name.as_str()));
             lines.push(channel("position", position, &joint.name, signals, units.0));
             lines.push(channel("effort", effort, &joint.name, signals, units.1));
+            lines.extend(gear(of_gear, position, units));
         }
         let unused: Vec<&str> = signals.iter().map(|own| own.name.as_str()).collect();
         let unused: Vec<&str> = unused
@@ -127,13 +136,13 @@ fn parts(name: &str) -> Vec<String> {
     parts
 }
 
-/// The column of a joint, by its name with one of the words, or by a word and its number from the base.
+/// The columns of a joint, by its name with one of the words, or by a word and its number from the base.
 fn found<'a>(
     signals: &[&'a SignalView],
     (name, number): (&str, usize),
     words: &[&str],
     other: &[&str],
-) -> Option<&'a SignalView> {
+) -> Vec<&'a SignalView> {
     let own = parts(name);
     let number = number.to_string();
     let by_name = |view: &&&SignalView| {
@@ -143,15 +152,104 @@ fn found<'a>(
         let outside = |k: usize| k < at || k >= at + own.len();
         let rest = || all.iter().enumerate().filter(|(k, _)| outside(*k));
         let has = |words: &[&str]| rest().any(|(_, part)| words.contains(&part.as_str()));
-        has(words) || rest().next().is_none() && words == POSITION && !has(other)
+        let is_bare = rest().next().is_none() || has(&MOTOR);
+        has(words) || is_bare && words == POSITION && !has(other)
     };
     let by_number = |view: &&&SignalView| match &parts(&view.name)[..] {
-        [word, own] => words.contains(&word.as_str()) && *own == number,
+        [word, own] => {
+            let is_motor = words == POSITION && MOTOR.contains(&word.as_str());
+            (words.contains(&word.as_str()) || is_motor) && *own == number
+        }
+        [word, side, own] => {
+            let is_side = MOTOR.contains(&side.as_str()) || SENSOR.contains(&side.as_str());
+            words.contains(&word.as_str()) && is_side && *own == number
+        }
         _ => false,
     };
-    let mut all = signals.iter();
-    let named = all.clone().find(by_name);
-    named.or_else(|| all.find(by_number)).copied()
+    let all = signals.iter();
+    let named: Vec<&SignalView> = all.clone().filter(by_name).copied().collect();
+    match named.is_empty() {
+        true => all.filter(by_number).copied().collect(),
+        false => named,
+    }
+}
+
+/// Of the columns of one kind of a joint, that of the joint itself, and that of the other side of its
+/// gear: a motor's position, or what a sensor shows.
+fn sides(found: Vec<&SignalView>) -> (Option<&SignalView>, Option<&SignalView>) {
+    let is_other = |view: &&&SignalView| {
+        let words = parts(&view.name);
+        let has = |of: &[&str]| words.iter().any(|word| of.contains(&word.as_str()));
+        let is_position = !has(&EFFORT);
+        is_position && has(&MOTOR) || !is_position && has(&SENSOR)
+    };
+    let other = found.iter().find(is_other).copied();
+    let own = found.iter().find(|view| !is_other(view)).copied();
+    match own {
+        Some(_) => (own, other),
+        None => (other, None),
+    }
+}
+
+/// The lines of a joint whose gear is seen: by a second encoder, a torque sensor, or both.
+fn gear(
+    [motor, sensor]: [Option<&SignalView>; 2],
+    position: Option<&SignalView>,
+    units: (Dimension, Dimension),
+) -> Vec<String> {
+    let mut lines = Vec::new();
+    if let Some(motor) = motor {
+        let ratio = position.and_then(|joint| ratio(motor, joint));
+        lines.push(match ratio {
+            Some(ratio) => format!(
+                "motor = {{ channel = {}, unit = {}, scale = {} }}   # guess; it turns {ratio} times as far as its joint",
+                string(&motor.name),
+                string(&unit_of(motor, units.0)),
+                significant(1.0 / ratio, 6),
+            ),
+            None => format!(
+                "motor = {{ channel = {}, unit = {} }}   # guess; `scale` is one by the gear ratio",
+                string(&motor.name),
+                string(&unit_of(motor, units.0)),
+            ),
+        });
+    }
+    if let Some(sensor) = sensor {
+        lines.push(format!(
+            "torque = {{ channel = {}, unit = {} }}   # guess; what passes the gear",
+            string(&sensor.name),
+            string(&unit_of(sensor, units.1)),
+        ));
+    }
+    if motor.is_some() {
+        lines.push(format!(
+            "stiffness = {{ value = {FILL_IN:?}, unit = {} }}   # of the gear, as you know it; `rotor` is the motor's inertia at the joint",
+            string(&units.1.per(units.0).to_string()),
+        ));
+    }
+    lines
+}
+
+/// How many times as far as its joint a motor turns, a whole number; `None` where it turns as far, or the samples do not tell.
+fn ratio(motor: &SignalView, joint: &SignalView) -> Option<f64> {
+    let in_si = |view: &SignalView| Unit::parse(&view.unit).map_or(1.0, |unit| unit.to_si);
+    let range = |view: &SignalView| {
+        let finite = view.samples().iter().copied().filter(|x| x.is_finite());
+        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+        in_si(view) * (high - low)
+    };
+    let times = range(motor) / range(joint);
+    (times.is_finite() && times >= LEAST_RATIO).then(|| times.round())
+}
+
+/// The unit of a column, or that of its kind: a unit of something else is the joint's business, and `diagnose` says so.
+fn unit_of(view: &SignalView, dimension: Dimension) -> String {
+    match Unit::parse(&view.unit) {
+        Some(_) if !view.unit.is_empty() => view.unit.clone(),
+        _ => dimension.to_string(),
+    }
 }
 
 /// A line of a joint; a message with names has its joints by their names.
@@ -165,14 +263,12 @@ fn channel(
     let field = format!(".{key}[");
     let topic = signals.iter().find_map(|own| own.name.split_once(&field));
     let (name, unit) = match (found, topic) {
-        (Some(own), _) => (own.name.clone(), own.unit.clone()),
-        (None, Some((topic, _))) => (format!("{topic}.{key}[name={joint}]"), String::new()),
-        (None, None) => (FILL_IN.to_owned(), String::new()),
-    };
-    // A unit of something else is the joint's business: `diagnose` says so.
-    let unit = match Unit::parse(&unit) {
-        Some(_) if !unit.is_empty() => unit,
-        _ => dimension.to_string(),
+        (Some(own), _) => (own.name.clone(), unit_of(own, dimension)),
+        (None, Some((topic, _))) => (
+            format!("{topic}.{key}[name={joint}]"),
+            dimension.to_string(),
+        ),
+        (None, None) => (FILL_IN.to_owned(), dimension.to_string()),
     };
     format!(
         "{key} = {{ channel = {}, unit = {} }}",
@@ -263,5 +359,50 @@ mod tests {
             "{messages}"
         );
         assert!(begun(&[("q1", ""), ("tau1", "")]).contains(FILL_IN));
+    }
+
+    #[test]
+    fn a_second_encoder_and_a_torque_sensor_are_those_of_the_gear() {
+        let both = begun(&[
+            ("q_motor_1", "rad"),
+            ("q1", "rad"),
+            ("tau_sensor1", "N·m"),
+            ("tau1", "N·m"),
+            ("elbow_pos", "rad"),
+            ("elbow_motor", "rad"),
+            ("elbow_torque", "N·m"),
+        ]);
+        for line in [
+            "position = { channel = \"q1\", unit = \"rad\" }",
+            "effort = { channel = \"tau1\", unit = \"N·m\" }",
+            "motor = { channel = \"q_motor_1\", unit = \"rad\" }   # guess; `scale`",
+            "torque = { channel = \"tau_sensor1\", unit = \"N·m\" }   # guess",
+            "position = { channel = \"elbow_pos\", unit = \"rad\" }",
+            "motor = { channel = \"elbow_motor\"",
+            "stiffness = { value = \"fill in\", unit = \"N·m/rad\" }",
+        ] {
+            assert!(both.contains(line), "{line}\n{both}");
+        }
+        let gear = |name: &str, times: f64| {
+            SignalView::of(Channel {
+                name: name.to_owned(),
+                unit: "rad".to_owned(),
+                samples: (0..40)
+                    .map(|k| times * libm::sin(0.3 * f64::from(k)))
+                    .collect(),
+            })
+        };
+        assert_eq!(
+            ratio(&gear("motor", 100.3), &gear("joint", 1.0)),
+            Some(100.0)
+        );
+        assert_eq!(ratio(&gear("motor", 1.02), &gear("joint", 1.0)), None);
+        // The only one that a motor has is the joint's.
+        let alone = begun(&[("elbow_motor_pos", "rad"), ("elbow_torque_sensor", "N·m")]);
+        assert!(
+            alone.contains("position = { channel = \"elbow_motor_pos\"")
+                && alone.contains("effort = { channel = \"elbow_torque_sensor\""),
+            "{alone}"
+        );
     }
 }
