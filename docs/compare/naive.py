@@ -167,7 +167,7 @@ def told(seed, case):
 def diagnosed(path, seeds):
     """Scores of `blind trial --plant rig --details --json` of the same seeds."""
     cases = json.loads(path.read_text())["cases"]
-    scores = {case["seed"]: case.get("score") or case["judgement"] for case in cases}
+    scores = {case["seed"]: case.get("judgement") or case["score"] for case in cases}
     return [scores[seed] for seed in seeds]
 
 
