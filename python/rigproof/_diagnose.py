@@ -36,7 +36,7 @@ def diagnose(
     recording: a path (CSV, MCAP, or a folder of them), a dict of arrays of shape (n,), a frame of pandas or polars, or a list of these, which are diagnosed
     together; each may be a pair with its settings, (recording, {"gain": 8.5}), the gain of the position servo in it. rig: a path, a dict, or a Rig. hold_out: another recording, or the share (0.05 to 0.8) of the end on which the result is shown; 0.25 where it is
     None. units: the unit of each column of arrays, such as {"q": "deg"}; where it says nothing the rig's own counts. time: the column of time stamps; `time`,
-    `t`, `timestamp` and the like are found. Whole numbers, such as nanoseconds, count from the first. from_s, to_s: what lies between these stamps counts.
+    `t`, `timestamp` and the like are found; the rows of a static sweep need none. Whole numbers, such as nanoseconds, count from the first. from_s, to_s: what lies between these stamps counts.
     calibrate: so many simulated recordings say what the result is worth. jobs: 0 takes every processor; the result does not depend on it. progress: True shows
     what is worked on and the seconds, on a terminal and in a notebook; a callable is called with the seconds. out: the folder to write; a temporary one where it is None.
 
@@ -47,10 +47,11 @@ def diagnose(
         raise Error("recording: the list is empty; give at least one recording")
     many = len(several) > 1
     settings: list[tuple[str, Mapping[str, float]]] = []
+    described = Rig.of(rig)
 
     def of(one: Any, name: str) -> Any:
         one, own = one if _is_set(one) else (one, {})
-        given = taken(one, units or {}, time, name)
+        given = taken(one, units or {}, time, name, described.is_sweep)
         if own:
             settings.append((os.path.basename(given) if isinstance(given, str) else name, own))
         return given
@@ -66,7 +67,7 @@ def diagnose(
     try:
         curves = _rigproof.diagnose(
             given,
-            Rig.of(rig).given(settings),
+            described.given(settings),
             os.fspath(out),
             held_out=held_out,
             hold_out_share=float(hold_out) if is_share else None,

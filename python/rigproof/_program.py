@@ -44,6 +44,8 @@ def simulate(recording: PathLike, rig: PathLike, calibration: PathLike | None = 
     return asked(words + (["--out", os.fspath(out)] if out is not None else []))
 
 
-def inspect(recording: PathLike, write_rig: PathLike | None = None) -> dict[str, Any]:
-    """Says what is in a recorded file: rate, gaps, channels with quantum and noise. write_rig: the rig description to begin."""
-    return asked(["inspect", os.fspath(recording)] + (["--write-rig", os.fspath(write_rig)] if write_rig is not None else []))
+def inspect(recording: PathLike, write_rig: PathLike | None = None, sweep: bool = False) -> dict[str, Any]:
+    """Says what is in a recorded file: rate, gaps, channels with quantum and noise. write_rig: the rig description to begin. sweep: its rows are a static
+    sweep, without a time."""
+    words = ["inspect", os.fspath(recording), *(["--sweep"] if sweep else [])]
+    return asked(words + (["--write-rig", os.fspath(write_rig)] if write_rig is not None else []))

@@ -13,14 +13,19 @@ from ._errors import Error
 
 # Names that a column of time stamps has, and how many of each unit make a second.
 TIMES = ("time_s", "time", "t", "t_s", "timestamp", "timestamp_s", "stamp", "timestamp_ns", "time_ns", "t_ns")
+# What the rows of a static sweep are counted as.
+SWEPT = "row of the sweep"
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9}
 
 
-def taken(recording: Any, units: Mapping[str, str], time: str | None, name: str) -> Any:
-    """A path as text, or (name, time stamps in s, [(channel, unit, samples)])."""
+def taken(recording: Any, units: Mapping[str, str], time: str | None, name: str, is_sweep: bool = False) -> Any:
+    """A path as text, or (name, time stamps in s, [(channel, unit, samples)]). The rows of a static sweep are counted."""
     if isinstance(recording, (str, os.PathLike)):
         return os.fspath(recording)
     columns = _columns(recording, name)
+    if is_sweep and columns:
+        columns = {SWEPT: np.arange(len(next(iter(columns.values()))), dtype=np.float64), **columns}
+        time = SWEPT
     time = time or next((own for own in TIMES if own in columns), None)
     if time is None or time not in columns:
         known = ", ".join(map(str, columns))

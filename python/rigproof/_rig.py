@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -39,6 +40,11 @@ class Rig:
         self.text = text
         self.path = path
         self.inferred = inferred or []
+
+    @property
+    def is_sweep(self) -> bool:
+        """Whether its recordings are static sweeps: settled rows, without a time."""
+        return re.search(r"""["']?drive["']?\s*=\s*["']static["']""", self.text) is not None
 
     @classmethod
     def from_path(cls, path: str | os.PathLike[str]) -> Rig:

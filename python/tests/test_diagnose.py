@@ -56,6 +56,23 @@ def test_arrays_frames_and_their_kinds_of_columns_give_one_answer(case, rig) -> 
         assert abs(drag(rigproof.diagnose(recording, rig, units=units)) - drag(plain)) < 1e-3
 
 
+def test_the_rows_of_a_static_sweep_need_no_time() -> None:
+    rng = np.random.default_rng(7)
+    current = np.tile(np.concatenate([np.linspace(0, 2, 21), np.linspace(2, 0, 21)]), 2)
+    torque = 0.1 + 0.5 * current**2 + 0.01 * rng.standard_normal(current.size)
+    rig = {
+        "name": "brake",
+        "plant": "bench",
+        "motion": "rotary",
+        "channels": {"torque": {"channel": "tau", "unit": "N·m"}, "current": {"channel": "i", "unit": "A"}},
+        "characteristic": {"command": {"points": [0, 2], "unit": "A"}, "effort": {"points": [0.1, 2.1], "unit": "N·m"}},
+        "protocol": {"drive": "static"},
+    }
+    report = rigproof.diagnose({"tau": torque, "i": current}, rig, progress=False)
+    assert {row["mechanism"] for row in report.names} == {"command_exponent"}
+    assert abs(next(row["value"] for row in report.names if row["parameter"] == "exponent") - 2) < 0.1
+
+
 def test_missing_samples_and_repeated_stamps_are_mended_or_said(case, rig) -> None:
     holes = case["x"].copy()
     holes[1000:1003] = np.nan

@@ -118,7 +118,7 @@ pub fn align(recorded: &Signals) -> Result<JointRun, Fault> {
         parts: Vec::new(),
         remarks: mended,
     };
-    check_sign(&run)?;
+    check_sign(&run, mean(&run.effort))?;
     Ok(run)
 }
 
@@ -174,17 +174,20 @@ fn resolution(signals: &Signals) -> (f64, f64) {
     (quantum, (quantum / 12f64.sqrt()).hypot(stated))
 }
 
-/// A passive resistance cannot give out energy on average. If it does, a channel has the wrong
-/// sign.
-fn check_sign(run: &JointRun) -> Result<(), Fault> {
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+/// A passive resistance cannot give out energy on average. If it does, a channel has the wrong sign.
+/// `about` is the effort that counts as none: where a sensor may not be tared, the mean.
+pub(super) fn check_sign(run: &JointRun, about: f64) -> Result<(), Fault> {
     if run.plant == PlantKind::Axis {
         return Ok(());
     }
-    let mean = run.effort.iter().sum::<f64>() / run.len().max(1) as f64;
     let (mut power, mut size) = (0.0, 0.0);
     for (now, effort) in run.motion.iter().zip(&run.effort) {
-        power += now.speed * (effort - mean);
-        size += (now.speed * (effort - mean)).abs();
+        power += now.speed * (effort - about);
+        size += (now.speed * (effort - about)).abs();
     }
     if power < -MOST_GIVEN * size {
         return Err(Fault {

@@ -4,7 +4,7 @@
 mod regimes;
 mod scatter;
 
-use super::align::Signals;
+use super::align::{Signals, check_sign};
 use super::inertia::Inertia;
 use super::run::JointRun;
 use crate::align::{Fault, check_missing, smallest_step};
@@ -23,7 +23,7 @@ const ROW_S: f64 = 1.0;
 /// The rows of a sweep in their order. Those that lack a number are left out.
 ///
 /// # Errors
-/// Too many efforts are missing.
+/// Too many efforts are missing, or they drive the motion.
 pub(super) fn align(signals: &Signals, recording: &Recording) -> Result<JointRun, Fault> {
     let speeds = recording.speed.as_ref().map(|own| own.samples.as_slice());
     let is_stated = recording
@@ -62,7 +62,7 @@ pub(super) fn align(signals: &Signals, recording: &Recording) -> Result<JointRun
             sense: speed.map_or(1.0, sense),
         }
     });
-    Ok(JointRun {
+    let run = JointRun {
         plant: signals.plant,
         kind: signals.kind,
         inertia: Inertia::None,
@@ -86,7 +86,9 @@ pub(super) fn align(signals: &Signals, recording: &Recording) -> Result<JointRun
         parts: Vec::new(),
         remarks: vec![said(kept.len(), all)],
         effort,
-    })
+    };
+    check_sign(&run, 0.0)?;
+    Ok(run)
 }
 
 /// The direction of a speed; 0 of none.
