@@ -232,15 +232,11 @@ fn gear(
 
 /// How many times as far as its joint a motor turns, a whole number; `None` where it turns as far, or the samples do not tell.
 fn ratio(motor: &SignalView, joint: &SignalView) -> Option<f64> {
-    let in_si = |view: &SignalView| Unit::parse(&view.unit).map_or(1.0, |unit| unit.to_si);
-    let range = |view: &SignalView| {
-        let finite = view.samples().iter().copied().filter(|x| x.is_finite());
-        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
-        in_si(view) * (high - low)
+    let turned = |view: &SignalView| {
+        let to_si = Unit::parse(&view.unit).map_or(1.0, |unit| unit.to_si);
+        Some(to_si * view.span()?)
     };
-    let times = range(motor) / range(joint);
+    let times = turned(motor)? / turned(joint)?;
     (times.is_finite() && times >= LEAST_RATIO).then(|| times.round())
 }
 

@@ -63,6 +63,11 @@ impl SignalView {
         }
     }
 
+    /// From the least to the greatest sample; nothing where all are missing.
+    pub fn span(&self) -> Option<f64> {
+        self.range.map(|(least, greatest)| greatest - least)
+    }
+
     /// Its samples, where they are at hand.
     pub fn samples(&self) -> &[f64] {
         &self.outline

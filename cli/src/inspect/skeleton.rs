@@ -231,12 +231,7 @@ pub fn toml(
             [position, command.clone()].concat()
         }
     };
-    let unused = signals
-        .iter()
-        .filter(|s| !used.iter().any(|u| std::ptr::eq(*u, **s)));
-    let unused: Vec<&str> = unused.map(|s| s.name.as_str()).collect();
-    lines
-        .extend((!unused.is_empty()).then(|| format!("# not used: {}", plain(&unused.join(", ")))));
+    lines.extend(not_used(signals, &used));
     if plant != Some("bench") {
         lines.extend(parameters(&command, rotary));
     }
@@ -270,10 +265,7 @@ fn friction(plant: Option<&str>, level: Option<f64>, rotary: Option<bool>) -> St
 
 /// The static characteristic of a brake under its command, which its data sheet tells or a measurement at a few commands.
 fn characteristic(command: &[&SignalView], rotary: Option<bool>) -> [String; 4] {
-    let unit = match command {
-        [signal] if !signal.unit.is_empty() => string(&signal.unit),
-        _ => format!("{FILL_IN:?}"),
-    };
+    let unit = unit_of(command);
     let effort = if rotary == Some(true) { "N·m" } else { "N" };
     [
         "\n# The brake or damper by the effort at which it settles under its command, straight between the points. Does the command drive\n# the motor that moves it instead? Then take out this table and the channel.\n[characteristic]".to_owned(),
@@ -281,6 +273,23 @@ fn characteristic(command: &[&SignalView], rotary: Option<bool>) -> [String; 4] 
         format!("effort = {{ points = {FILL_IN:?}, unit = {effort:?} }}"),
         "# rising = { value = 20, unit = \"ms\" }   # the time constants with which it follows; without them at once\n# falling = { value = 20, unit = \"ms\" }".to_owned(),
     ]
+}
+
+/// The unit of the only channel that was found, or that it is to be filled in.
+fn unit_of(found: &[&SignalView]) -> String {
+    match found {
+        [signal] if !signal.unit.is_empty() => string(&signal.unit),
+        _ => format!("{FILL_IN:?}"),
+    }
+}
+
+/// A comment on the channels that no line names.
+fn not_used(signals: &[&SignalView], used: &[&SignalView]) -> Option<String> {
+    let unused = signals
+        .iter()
+        .filter(|s| !used.iter().any(|u| std::ptr::eq(*u, **s)));
+    let unused: Vec<&str> = unused.map(|s| s.name.as_str()).collect();
+    (!unused.is_empty()).then(|| format!("# not used: {}", plain(&unused.join(", "))))
 }
 
 /// Whether the plant turns, as the first unit that tells says.

@@ -4,9 +4,11 @@ use std::path::Path;
 
 use rigproof_spec::units::Dimension;
 use rigproof_trace::csv::Hints;
-use rigproof_trace::rig::{FILL_IN, SCHEMA_LINE};
+use rigproof_trace::rig::SCHEMA_LINE;
 
-use super::{COMMAND, CURRENT, EFFORT, Role, entry, friction, hinted, plain, rotary, string};
+use super::{
+    COMMAND, CURRENT, EFFORT, Role, entry, friction, hinted, not_used, rotary, string, unit_of,
+};
 use crate::inspect::signal::SignalView;
 use crate::text::number::significant;
 
@@ -64,12 +66,7 @@ pub fn of_sweep(recording: &Path, hints: &Hints, signals: &[&SignalView]) -> Str
     }
     lines.extend(hinted(hints));
     let used = [effort, speed, driving].concat();
-    let unused = signals
-        .iter()
-        .filter(|s| !used.iter().any(|u| std::ptr::eq(*u, **s)));
-    let unused: Vec<&str> = unused.map(|s| s.name.as_str()).collect();
-    lines
-        .extend((!unused.is_empty()).then(|| format!("# not used: {}", plain(&unused.join(", ")))));
+    lines.extend(not_used(signals, &used));
     lines.join("\n") + "\n"
 }
 
@@ -95,17 +92,9 @@ fn characteristic(
     let unit = if rotary == Some(true) { "N·m" } else { "N" };
     vec![
         "\n# The effort at which it settles under its command, straight between the points. Begun with the line between the ends of\n# this sweep, so that `diagnose` says how the law departs from a line; put your data sheet's or your model's in its place.\n[characteristic]".to_owned(),
-        format!("command = {{ points = [{}, {}], unit = {} }}", from[0], to[0], unit_of(command)),
+        format!("command = {{ points = [{}, {}], unit = {} }}", from[0], to[0], unit_of(driving)),
         format!("effort = {{ points = [{}, {}], unit = {unit:?} }}", from[1], to[1]),
     ]
-}
-
-/// Its unit, or that it is to be filled in.
-fn unit_of(signal: &SignalView) -> String {
-    match signal.unit.as_str() {
-        "" => format!("{FILL_IN:?}"),
-        unit => string(unit),
-    }
 }
 
 /// The least and the greatest command, with the median size of the effort there.

@@ -7,7 +7,7 @@ use crate::align::{
     Fault, check_clock, check_missing, cutoff_hz, forget_sense_at_rest, forget_sense_at_reversals,
     median_step, quiet_cutoff_hz, regular_count, resample, smallest_step, smoothed_motion,
 };
-use crate::filter::gradient;
+use crate::filter::{deviation, gradient};
 use crate::rules::{ARM_PERIODS, ARM_WIDTH_S, MOTOR_FOLLOWS, STILL_QUANTA, STILL_SIGMAS};
 use core::f64::consts::TAU;
 use rigproof_model::chain::{Chain, INERTIAL, Inertial, Joint, Kind};
@@ -264,17 +264,11 @@ impl Moving {
 /// adds little to these at the usual sample rates.
 fn scatter(signal: &[f64]) -> f64 {
     let second = signal.windows(3).map(|own| match own {
-        [a, b, c] => (a - 2.0 * b + c).abs(),
+        [a, b, c] => a - 2.0 * b + c,
         _ => 0.0,
     });
-    let mut sizes: Vec<f64> = second.collect();
-    sizes.sort_by(f64::total_cmp);
-    let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
-    median / NORMAL_MEDIAN / 6f64.sqrt()
+    deviation(second.collect()).unwrap_or(0.0) / 6f64.sqrt()
 }
-
-/// Median of the absolute value of a standard normal variable.
-const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
 
 /// The effort of every joint, one joint after another, per unit of each
 /// inertial parameter of each link. The last

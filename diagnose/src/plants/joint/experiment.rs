@@ -37,8 +37,7 @@ pub(super) fn next(
     rivals: &[Vec<Cause>],
 ) -> Option<(NextExperiment, Option<Trace>)> {
     let run = stand.train;
-    let is_sweep = run.rows.is_some();
-    if is_sweep || !run.parts.is_empty() || run.servo.is_some() || run.load().is_some() {
+    if run.is_sweep() || !run.parts.is_empty() || run.servo.is_some() || run.load().is_some() {
         return None;
     }
     let (index, all) = contested(stand.problem, stand.selection, rivals)?;

@@ -46,7 +46,7 @@ pub(super) fn bare(
         // yield torque through a reversal.
         run.predicted = run.braked(current);
         let still = STILL_NOISES * run.position_noise;
-        if run.rows.is_none() {
+        if !run.is_sweep() {
             forget_sense_near_reversals(&mut run.motion, &run.position, still);
         }
     }

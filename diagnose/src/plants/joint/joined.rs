@@ -8,8 +8,9 @@ use core::ops::Range;
 impl Joins for JointRun {
     fn append(&mut self, run: &JointRun) {
         // No window may span the seam. The rows of a sweep stand alone.
-        let seam = self.recorded.last_mut().filter(|_| self.rows.is_none());
-        if let Some(last) = seam {
+        if !self.is_sweep()
+            && let Some(last) = self.recorded.last_mut()
+        {
             *last = false;
         }
         let before = self.position.len();

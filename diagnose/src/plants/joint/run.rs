@@ -335,7 +335,7 @@ impl Run for JointRun {
         };
         windows.keep(|centre, bump| is_recorded(&self.recorded, centre, bump));
         windows.keep(most(MOST_AMBIGUOUS));
-        if self.rows.is_some() {
+        if self.is_sweep() {
             return;
         }
         let floor = self.floor(windows);
@@ -443,12 +443,12 @@ impl Run for JointRun {
     fn variables(&self, windows: &Windows) -> Vec<Variable> {
         let shares = self.shares(Place::Whole, windows);
         let mut all = variables(self, windows, Place::Whole, &shares);
-        all.retain(|own| self.rows.is_none() || ["speed", "effort"].contains(&own.name));
+        all.retain(|own| !self.is_sweep() || ["speed", "effort"].contains(&own.name));
         all
     }
 
     fn regimes(&self, windows: &Windows) -> Regimes {
-        if self.rows.is_some() {
+        if self.is_sweep() {
             return self.regimes_of_sweep(windows);
         }
         let output = match self.plant {

@@ -119,6 +119,11 @@ fn said(kept: usize, all: usize) -> Remark {
 }
 
 impl JointRun {
+    /// Whether it is a static sweep.
+    pub(super) fn is_sweep(&self) -> bool {
+        self.rows.is_some()
+    }
+
     /// The rows of a static sweep, dealt like cards, so that each part of them covers the sweep. What
     /// was recorded over time stays as it is.
     pub(super) fn dealt(self) -> JointRun {
@@ -152,7 +157,7 @@ impl JointRun {
     /// nor travel, and friction of motion only where the speed is recorded.
     pub(super) fn shows(&self, facts: &Facts) -> bool {
         let is_of_motion = facts.family == Family::FrictionOfMotion;
-        self.rows.is_none() || facts.in_a_sweep && (!is_of_motion || self.is_turned())
+        !self.is_sweep() || facts.in_a_sweep && (!is_of_motion || self.is_turned())
     }
 
     /// Whether a speed is recorded.
@@ -162,7 +167,7 @@ impl JointRun {
 
     /// What a constant cannot be told from: in a sweep at one unrecorded speed, dry friction.
     pub(super) fn twin_here(&self, twin: Mechanism) -> Cause {
-        Cause::of(match self.rows.is_some() && !self.is_turned() {
+        Cause::of(match self.is_sweep() && !self.is_turned() {
             true => Mechanism::DryOffset,
             false => twin,
         })

@@ -35,7 +35,7 @@ impl Stand<'_, Rig> {
     fn parts_said(&self) -> String {
         let (fitted, held_out) = (self.train.len(), self.test.len());
         let of_another = self.other_recording;
-        if self.train.rows.is_some() {
+        if self.train.is_sweep() {
             let from = if of_another { " of another sweep" } else { "" };
             return format!("fitted part: {fitted} rows; held-out part: {held_out} rows{from}");
         }
@@ -71,7 +71,7 @@ impl Stand<'_, Rig> {
             (false, None) => "the end of the recording",
         };
         match self.train.plant {
-            PlantKind::Bench if self.train.rows.is_some() => format!(
+            PlantKind::Bench if self.train.is_sweep() => format!(
                 "effort computed row by row from its command and speed; a memory of the command goes through the rows in their own order and starts empty; held out: {held_out}"
             ),
             PlantKind::Axis => format!(
