@@ -286,15 +286,16 @@ fn best_layout(table: &Table, head: Option<Head>, encoding: Encoding) -> Option<
         None => put_row_names_before(table, &mut names),
     }
     leave_out_empty(table, &mut names);
-    for (column, name) in names.iter_mut().enumerate() {
-        let cells = table.column(column);
-        (name.kind, name.grows, name.counts) = (cells.kind, cells.grows, cells.counts);
-    }
     let head_end = match (tagged, units) {
         (true, _) => table.line(table.run.0.checked_sub(1)?)?,
         (false, Some((number, _))) => *number,
         (false, None) => head.line,
     };
+    let start = table.first_below(head_end);
+    for (column, name) in names.iter_mut().enumerate() {
+        let cells = table.column_from(start, column);
+        (name.kind, name.grows, name.counts) = (cells.kind, cells.grows, cells.counts);
+    }
     Some(Layout {
         dialect: Dialect {
             separator: table.separator,

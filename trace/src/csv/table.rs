@@ -100,9 +100,28 @@ impl Table {
         })
     }
 
+    /// The first row of samples below the head: rows as wide as the run's, with numbers, belong to them where a fault parts
+    /// them from the run.
+    pub(super) fn first_below(&self, head_end: usize) -> usize {
+        let belongs = |row: &usize| {
+            let cells = self.cells(*row).unwrap_or_default();
+            let is_wide = Some(cells.len()) == self.width();
+            is_wide && share_of_numbers(&kinds(cells, self.decimal)).is_some()
+        };
+        let mut below = (0..self.run.0).filter(|row| self.line(*row) > Some(head_end));
+        below.find(belongs).unwrap_or(self.run.0)
+    }
+
     /// What a column holds.
     pub(super) fn column(&self, column: usize) -> Content {
-        let cells = || self.run_rows().filter_map(|cells| cells.get(column));
+        self.column_from(self.run.0, column)
+    }
+
+    /// What a column holds from a row on.
+    pub(super) fn column_from(&self, start: usize, column: usize) -> Content {
+        let rows = (start..self.run.1).filter_map(|row| self.cells(row));
+        let rows = rows.filter(|cells| Some(cells.len()) == self.width());
+        let cells = || rows.clone().filter_map(|cells| cells.get(column));
         let kinds = cells().map(|cell| self.decimal.kind(cell));
         let kind = kinds.fold(Kind::Missing, |kind, own| match kind {
             Kind::Missing => own,

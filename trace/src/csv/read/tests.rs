@@ -73,6 +73,10 @@ fn every_fault_of_a_file_has_its_place_and_its_remedy() {
             format!("t,t (ms)\n{good}"),
             "column 2 `t`: the name stands over column 1",
         ),
+        (
+            "t,x,y\n1,0,0\n2,0,0\n3,0,far\n3,0,\n4,0,\n".into(),
+            "line 4, column 3 `y`: `far` is no finite number",
+        ),
         (insert("90,-inf"), "`-inf` is no finite number"),
         (insert("90,1e999"), "`1e999` is no finite number"),
         (insert("90,3 mm"), "`3 mm` is no finite number"),
