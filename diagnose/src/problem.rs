@@ -15,8 +15,9 @@ use crate::weak::Windows;
 use crate::whiten::Whitener;
 use rigproof_model::effects::facts::Shapes;
 use rigproof_model::effects::{entry, facts};
+use std::borrow::Cow;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError, RwLock};
 
 /// A column of the regression over all windows.
 #[derive(Clone, Debug)]
@@ -103,8 +104,11 @@ pub struct Problem<'a> {
 /// The least and the greatest value of each parameter of a shape.
 pub type Bounds = Arc<[(f64, f64)]>;
 
-/// A cause, a shape, and their columns.
-type Recent = (Cause, Vec<f64>, Arc<Columns>);
+/// A cause, a shape, their columns, and the averages of these if they were requested.
+type Recent = (Cause, Vec<f64>, Arc<Columns>, Averages);
+
+/// The averages of columns over all windows.
+type Averages = Arc<OnceLock<Vec<Vec<f64>>>>;
 
 impl<'a> Problem<'a> {
     /// The problem in the usable rows of some windows. Its noise is sensor noise alone until
@@ -182,7 +186,14 @@ impl<'a> Problem<'a> {
             (kept, _) => kept.filter(|_| self.run.is_linearised() && !self.run.moves(cause)),
         };
         if let Some(kept) = kept {
-            let late = |rows: &Arc<Rows>| Arc::new(self.rows(&rows.signal, onset_s));
+            let late = |rows: &Arc<Rows>| {
+                // What trials take out of a row is not in its average.
+                let whole = match self.is_within_trials() {
+                    true => Cow::Owned(self.windows.average(&rows.signal)),
+                    false => Cow::Borrowed(&rows.raw),
+                };
+                Arc::new(self.rows(&rows.signal, onset_s.map(|own| (own, &whole[..]))))
+            };
             return Some(Term {
                 onset_s,
                 free: kept.free.iter().map(late).collect(),
@@ -194,8 +205,8 @@ impl<'a> Problem<'a> {
     }
 
     fn computed(&self, cause: Cause, shape: &[f64], onset_s: Option<f64>) -> Option<Term> {
-        let columns = self.columns(cause, shape)?;
-        Some(self.term_of(cause, shape, onset_s, &columns))
+        let (columns, averages) = self.columns(cause, shape)?;
+        Some(self.term_of(cause, shape, onset_s, &columns, &averages))
     }
 
     fn term_of(
@@ -204,18 +215,32 @@ impl<'a> Problem<'a> {
         shape: &[f64],
         onset_s: Option<f64>,
         columns: &Columns,
+        averages: &Averages,
     ) -> Term {
-        let rows = |signal: &Vec<f64>| self.rows(signal, onset_s);
+        let signals = match columns {
+            Columns::Free(signals) => &signals[..],
+            Columns::Fixed(signal) => core::slice::from_ref(signal),
+            Columns::Moved(_) => &[],
+        };
+        let whole = || -> Vec<Vec<f64>> {
+            let each = signals.iter();
+            each.map(|signal| self.windows.average(signal)).collect()
+        };
+        let whole = onset_s.map(|_| averages.get_or_init(whole));
+        let rows = |(index, signal): (usize, &Vec<f64>)| {
+            let whole = whole.and_then(|whole| whole.get(index));
+            self.rows(signal, onset_s.zip(whole.map(Vec::as_slice)))
+        };
         let (free, fixed) = match columns {
             Columns::Free(signals) => {
-                let mut free: Vec<Rows> = signals.iter().map(rows).collect();
+                let mut free: Vec<Rows> = signals.iter().enumerate().map(rows).collect();
                 let priors = self.run.prior_deviations(cause).into_iter();
                 for (own, prior) in free.iter_mut().zip(priors) {
                     own.prior_deviation = prior;
                 }
                 (free.into_iter().map(Arc::new).collect(), None)
             }
-            Columns::Fixed(signal) => (Vec::new(), Some(Arc::new(rows(signal)))),
+            Columns::Fixed(signal) => (Vec::new(), Some(Arc::new(rows((0, signal))))),
             Columns::Moved(signals) => {
                 let first = onset_s.map_or(0, |onset_s| self.run.clock().sample_at(onset_s));
                 let (windows, recorded) = (&self.windows, &self.target.signal);
@@ -236,16 +261,18 @@ impl<'a> Problem<'a> {
         }
     }
 
-    fn columns(&self, cause: Cause, shape: &[f64]) -> Option<Arc<Columns>> {
+    fn columns(&self, cause: Cause, shape: &[f64]) -> Option<(Arc<Columns>, Averages)> {
         let recent = || self.recent.lock().unwrap_or_else(PoisonError::into_inner);
         let thread = rayon::current_thread_index();
-        let same = |(own, known, _): &&Recent| (*own, &known[..]) == (cause, shape);
-        if let Some((.., columns)) = recent().get(&thread).filter(same) {
-            return Some(columns.clone());
+        let same = |(own, known, ..): &&Recent| (*own, &known[..]) == (cause, shape);
+        if let Some((.., columns, averages)) = recent().get(&thread).filter(same) {
+            return Some((columns.clone(), averages.clone()));
         }
         let columns = Arc::new(self.run.columns(cause, shape, None)?);
-        recent().insert(thread, (cause, shape.to_vec(), columns.clone()));
-        Some(columns)
+        let own = (columns.clone(), Averages::default());
+        let (columns, averages) = own.clone();
+        recent().insert(thread, (cause, shape.to_vec(), columns, averages));
+        Some(own)
     }
 
     /// For a cause whose columns are straight for a small change only: the shape with which they
@@ -286,7 +313,7 @@ impl<'a> Problem<'a> {
         beside: &[f64],
     ) -> Option<Term> {
         let columns = self.run.columns(cause, shape, Some(beside))?;
-        Some(self.term_of(cause, shape, onset_s, &columns))
+        Some(self.term_of(cause, shape, onset_s, &columns, &Averages::default()))
     }
 
     /// A term of the nominal model. Unknown parameters become columns, known ones a fixed column.
@@ -315,16 +342,28 @@ impl<'a> Problem<'a> {
         }
     }
 
-    fn rows(&self, signal: &[f64], onset_s: Option<f64>) -> Rows {
-        let first = onset_s.map(|onset_s| self.run.clock().sample_at(onset_s));
-        let late = first.map(|first| self.windows.since(signal, first));
-        let signal = late.as_deref().unwrap_or(signal);
-        let rows = self.rows_of(self.windows.average(signal));
+    /// The rows of a signal; `late` is the time from which it acts, s, and its averages over all
+    /// windows.
+    fn rows(&self, signal: &[f64], late: Option<(f64, &[f64])>) -> Rows {
+        let late = late.map(|(onset_s, whole)| {
+            let first = self.run.clock().sample_at(onset_s);
+            let signal = self.windows.since(signal, first);
+            let averages = self.windows.average_late(&signal, whole, first);
+            (signal, averages)
+        });
+        let (signal, averages) = match late {
+            Some((signal, averages)) => (Cow::Owned(signal), averages),
+            None => (Cow::Borrowed(signal), self.windows.average(signal)),
+        };
         // Only what is linearised about the samples of other terms needs its own.
         let is_read = self.run.is_linearised();
         Rows {
-            signal: if is_read { signal.to_vec() } else { Vec::new() },
-            ..rows
+            signal: if is_read {
+                signal.into_owned()
+            } else {
+                Vec::new()
+            },
+            ..self.rows_of(averages)
         }
     }
 }

@@ -106,6 +106,25 @@ impl Windows {
         self.apply(&self.bump, signal, &self.combinations)
     }
 
+    /// The same of a signal that is zero before `first`, where `whole` are the averages of that
+    /// which is not: only windows over `first` are computed.
+    pub fn average_late(&self, late: &[f64], whole: &[f64], first: usize) -> Vec<f64> {
+        let outputs = self.outputs_of(late);
+        let reach = self.bump.len() / 2;
+        let mut sum = vec![0.0; self.bump.len()];
+        let rows = self.centres.iter().zip(whole).enumerate();
+        rows.map(|(row, (&centre, &whole))| {
+            if centre + reach < first {
+                0.0
+            } else if centre - reach >= first {
+                whole
+            } else {
+                self.applied(row, &self.bump, &outputs, &self.combinations, &mut sum)
+            }
+        })
+        .collect()
+    }
+
     /// The same for other combinations of the equations.
     pub fn average_with(&self, signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {
         self.apply(&self.bump, signal, combinations)
@@ -144,36 +163,56 @@ impl Windows {
     }
 
     fn apply(&self, weights: &[f64], signal: &[f64], combinations: &[Vec<f64>]) -> Vec<f64> {
-        let stretch = (signal.len() / self.outputs).max(1);
-        let outputs: Vec<&[f64]> = signal.chunks(stretch).collect();
+        let outputs = self.outputs_of(signal);
         // A law at one joint of an arm has no effort at the others.
         let is_silent = |own: &&[f64]| own.iter().all(|x| *x == 0.0);
         let silent: Vec<bool> = outputs.iter().map(is_silent).collect();
         let mut sum = vec![0.0; weights.len()];
-        let rows = self.centres.iter().zip(&self.combined).enumerate();
-        rows.map(|(row, (&centre, combined))| {
-            let first = centre - weights.len() / 2;
-            let window = first..first + weights.len();
-            let within = |own| <[f64]>::get(own, window.clone()).unwrap_or_default();
-            if let Some(shares) = combined.and_then(|which| combinations.get(which)) {
-                sum.fill(0.0);
-                for (own, shares) in outputs.iter().zip(shares.chunks(stretch)) {
-                    let terms = within(own).iter().zip(within(shares));
-                    sum.iter_mut()
-                        .zip(terms)
-                        .for_each(|(sum, (x, share))| *sum += x * share);
-                }
-                return dot(weights, &sum);
-            }
-            let output = row % self.outputs;
-            match silent.get(output) {
-                Some(false) => outputs
-                    .get(output)
-                    .map_or(0.0, |own| dot(weights, within(own))),
-                _ => 0.0,
+        let rows = 0..self.centres.len();
+        rows.map(|row| {
+            let is_zero = self.combined.get(row).is_none_or(Option::is_none)
+                && silent.get(row % self.outputs) != Some(&false);
+            match is_zero {
+                true => 0.0,
+                false => self.applied(row, weights, &outputs, combinations, &mut sum),
             }
         })
         .collect()
+    }
+
+    fn outputs_of<'s>(&self, signal: &'s [f64]) -> Vec<&'s [f64]> {
+        signal
+            .chunks((signal.len() / self.outputs).max(1))
+            .collect()
+    }
+
+    /// One row of `Σ φ·signal`; `sum` is as long as the weights, whatever it holds.
+    fn applied(
+        &self,
+        row: usize,
+        weights: &[f64],
+        outputs: &[&[f64]],
+        combinations: &[Vec<f64>],
+        sum: &mut [f64],
+    ) -> f64 {
+        let centre = self.centres.get(row).copied().unwrap_or(0);
+        let first = centre - weights.len() / 2;
+        let window = first..first + weights.len();
+        let within = |own| <[f64]>::get(own, window.clone()).unwrap_or_default();
+        let combined = self.combined.get(row).copied().flatten();
+        if let Some(shares) = combined.and_then(|which| combinations.get(which)) {
+            let stretch = outputs.first().map_or(1, |own| own.len()).max(1);
+            sum.fill(0.0);
+            for (own, shares) in outputs.iter().zip(shares.chunks(stretch)) {
+                let terms = within(own).iter().zip(within(shares));
+                sum.iter_mut()
+                    .zip(terms)
+                    .for_each(|(sum, (x, share))| *sum += x * share);
+            }
+            return dot(weights, sum);
+        }
+        let own = outputs.get(row % self.outputs);
+        own.map_or(0.0, |own| dot(weights, within(own)))
     }
 
     /// The weights of the equations in a row, at its window's centre.

@@ -9,10 +9,13 @@ use crate::cause::Cause;
 use crate::problem::{Kept, Problem, Term};
 use crate::rules::{BEAM, KEPT, MOST_TERMS};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 type Names = Vec<String>;
+
+/// What stands for an explanation whose terms are the same, shapes and all.
+type Exact = Vec<(String, Vec<u64>)>;
 
 /// What a search needs.
 pub struct Beam<'a> {
@@ -37,10 +40,12 @@ impl Beam<'_> {
         let mut best = Best::new();
         self.keep(&mut best, [self.bare.clone()].into_iter().chain(known));
         let mut living = vec![self.bare.clone()];
+        let mut extended = BTreeSet::new();
         for size in 1..=MOST_TERMS {
             // All single causes are kept. A cause that begins late may explain nothing when it is
             // fitted to the whole recording.
             let most = if size == 1 { usize::MAX } else { BEAM + KEPT };
+            extended.extend(living.iter().map(|own| self.exact(own)));
             let (near, far) = self.children(&living, most);
             living = self.by_evidence(near);
             self.keep(&mut best, living.iter().cloned().chain(far));
@@ -48,7 +53,7 @@ impl Beam<'_> {
         for _ in 0..exchanges {
             let mut leading = ranked(&best);
             leading.truncate(BEAM);
-            let exchanged = self.exchanged(&leading);
+            let exchanged = self.exchanged(&leading, &mut extended);
             self.keep(&mut best, exchanged);
         }
         ranked(&best).into_iter().cloned().collect()
@@ -66,18 +71,34 @@ impl Beam<'_> {
     }
 
     /// Explanations with one term removed or exchanged, one for each set of causes. The best of
-    /// them have refined shapes.
-    fn exchanged(&self, leading: &[&Fitted]) -> Vec<Fitted> {
-        let fewer = leading.iter().flat_map(|own| {
-            (0..own.terms.len()).map(|index| {
+    /// them have refined shapes. What was `extended` before is not extended again.
+    fn exchanged(&self, leading: &[&Fitted], extended: &mut BTreeSet<Exact>) -> Vec<Fitted> {
+        let mut fewer: Vec<Fitted> = Vec::new();
+        for own in leading {
+            for index in 0..own.terms.len() {
                 let mut terms = own.terms.clone();
                 terms.remove(index);
-                self.bare.of(self.folds, &terms)
-            })
-        });
-        let fewer: Vec<Fitted> = fewer.collect();
+                let own = self.bare.of(self.folds, &terms);
+                if extended.insert(self.exact(&own)) {
+                    fewer.push(own);
+                }
+            }
+        }
         let (near, far) = self.children(&fewer, KEPT);
         near.into_iter().chain(far).chain(fewer).collect()
+    }
+
+    fn exact(&self, own: &Fitted) -> Exact {
+        let bits = |term: &Term| -> Vec<u64> {
+            let numbers = term.shape.iter().chain(&term.onset_s);
+            numbers.map(|own| own.to_bits()).collect()
+        };
+        let terms = own.terms.iter();
+        let mut exact: Exact = terms
+            .map(|term| (self.problem.run.cause_name(term.cause), bits(term)))
+            .collect();
+        exact.sort();
+        exact
     }
 
     /// The best extension by one term for each set of causes, at most so many: the leading ones
@@ -109,11 +130,10 @@ impl Beam<'_> {
 
     /// The evidence of an explanation with each term that may join it.
     fn extended(&self, parent: &Fitted) -> Vec<(f64, &Kept)> {
-        let usable = &self.problem.windows.usable;
         let open = self.tried.par_iter().map(Arc::as_ref);
         let open = open.filter(|own| may_join(&parent.terms, own.cause()));
         let scored = open.filter_map(|own| {
-            let fitted = parent.with(self.folds, &own.trial(usable));
+            let fitted = parent.with_kept(self.folds, own);
             let evidence = || self.judge.evidence(self.folds, &fitted);
             (!is_impossible(self.problem, &fitted)).then(|| (evidence(), own))
         });

@@ -2,7 +2,7 @@
 //! left-out block.
 
 use crate::cause::Cause;
-use crate::problem::{Problem, Rows, Term, add};
+use crate::problem::{Kept, Problem, Rows, Term, add};
 use crate::regression::{Blocks, dot};
 use crate::rules::FEWEST_ROWS;
 use nalgebra::{DMatrix, DVector};
@@ -14,6 +14,8 @@ use std::sync::Arc;
 pub struct Folds {
     /// The index of each usable row among all rows.
     rows: Vec<usize>,
+    /// The place of each of these rows among all usable rows, those of short blocks too.
+    places: Vec<usize>,
     /// First and end position of each block among the usable rows.
     ranges: Vec<(usize, usize)>,
     /// The number of usable rows of each block.
@@ -47,12 +49,20 @@ impl Folds {
             rows.extend(block);
         }
         let counts = ranges.iter().map(|(first, end)| (end - first) as f64);
+        let before = usable.iter().scan(0, |count, own| {
+            let place = *count;
+            *count += usize::from(*own);
+            Some(place)
+        });
+        let before: Vec<usize> = before.collect();
+        let places = rows.iter().filter_map(|row| before.get(*row).copied());
         let driving = problem.windows.average(&problem.run.driving());
         Folds {
             counts: counts.collect(),
             driving_energy: dot(&driving, &driving),
             driving: Arc::new(driving),
             rows_a_sample: problem.rows_a_sample,
+            places: places.collect(),
             rows,
             ranges,
         }
@@ -61,6 +71,14 @@ impl Folds {
     fn usable(&self, column: &[f64]) -> Arc<[f64]> {
         let rows = self.rows.iter();
         rows.map(|row| column.get(*row).copied().unwrap_or(0.0))
+            .collect()
+    }
+
+    /// The same of what is packed.
+    fn unpacked(&self, column: &[f32]) -> Arc<[f64]> {
+        let places = self.places.iter();
+        places
+            .map(|place| column.get(*place).copied().map_or(0.0, f64::from))
             .collect()
     }
 
@@ -155,7 +173,8 @@ impl Fitted {
             coefficients: Vec::new(),
         };
         for column in free {
-            fitted.take_in(folds, column);
+            let white = folds.usable(&column.white);
+            fitted.take_in(folds, column.ridge(folds.rows_a_sample), white);
         }
         fitted.solve();
         fitted
@@ -163,9 +182,34 @@ impl Fitted {
 
     /// The fit with one more term.
     pub fn with(&self, folds: &Folds, term: &Term) -> Fitted {
+        let usable = |own: &Arc<Rows>| folds.usable(&own.white);
+        let free = term.free.iter().map(usable).collect();
+        self.joined_by(folds, term.clone(), free, term.fixed.as_ref().map(usable))
+    }
+
+    /// The same with a kept term, for its evidence: of a packed one the fit has no rows but the
+    /// white ones.
+    pub fn with_kept(&self, folds: &Folds, kept: &Kept) -> Fitted {
+        let packed = match kept {
+            Kept::Whole(term) => return self.with(folds, term),
+            Kept::Packed(packed) => packed,
+        };
+        let free = packed.free.iter().map(|(own, _)| folds.unpacked(own));
+        let fixed = packed.fixed.as_ref().map(|own| folds.unpacked(own));
+        self.joined_by(folds, packed.without_rows(), free.collect(), fixed)
+    }
+
+    /// The fit with a term whose white columns on usable rows are these.
+    fn joined_by(
+        &self,
+        folds: &Folds,
+        term: Term,
+        free: Vec<Arc<[f64]>>,
+        fixed: Option<Arc<[f64]>>,
+    ) -> Fitted {
         let mut fitted = self.clone();
-        if let Some(fixed) = &term.fixed {
-            fitted.take_away(folds, &fixed.white);
+        if let (Some(white), Some(fixed)) = (fixed, &term.fixed) {
+            fitted.take_away(folds, &white);
             if term.cause.is_of_drive() {
                 add(
                     Arc::make_mut(&mut fitted.acting).as_mut_slice(),
@@ -174,13 +218,13 @@ impl Fitted {
                 );
             }
         }
-        for column in &term.free {
+        for (column, white) in term.free.iter().zip(free) {
             if let Some(Form::Sensor(OfSensor::ForceGain)) = form(term.cause.mechanism) {
                 fitted.gains.push((fitted.columns.len(), column.clone()));
             }
-            fitted.take_in(folds, column);
+            fitted.take_in(folds, column.ridge(folds.rows_a_sample), white);
         }
-        fitted.terms.push(term.clone());
+        fitted.terms.push(term);
         fitted.solve();
         fitted
     }
@@ -275,9 +319,8 @@ impl Fitted {
         dot(&acting, &acting) / folds.driving_energy.max(1e-300)
     }
 
-    fn take_in(&mut self, folds: &Folds, column: &Rows) {
-        self.ridge.push(column.ridge(folds.rows_a_sample));
-        let column = folds.usable(&column.white);
+    fn take_in(&mut self, folds: &Folds, ridge: f64, column: Arc<[f64]>) {
+        self.ridge.push(ridge);
         let size = self.columns.len();
         let with_target = folds.dots(&column, &self.target);
         let with_itself = folds.dots(&column, &column);
@@ -301,7 +344,6 @@ impl Fitted {
     }
 
     fn take_away(&mut self, folds: &Folds, fixed: &[f64]) {
-        let fixed = &folds.usable(fixed)[..];
         let with_target = folds.dots(fixed, &self.target);
         let with_itself = folds.dots(fixed, fixed);
         let with_columns: Vec<Vec<f64>> = self

@@ -8,6 +8,7 @@ use crate::problem::{Problem, Term};
 use crate::rules::{
     MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, PERIOD_STRIDE, STRIDES, TAKEN_AGAIN, TOP_STRIDES,
 };
+use rayon::prelude::*;
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
 
@@ -100,11 +101,11 @@ impl Refining<'_> {
             let Some(own) = best.1.terms.last() else {
                 break;
             };
-            let beside = [true, false].map(|up| {
+            let beside = |up| {
                 let term = moved_by(self.problem, own, Move { place, up }, stride)?;
                 Some(evidence(&others.with(self.folds, &term)))
-            });
-            let [Some(up), Some(down)] = beside else {
+            };
+            let (Some(up), Some(down)) = rayon::join(|| beside(true), || beside(false)) else {
                 continue;
             };
             let bend = 2.0 * best.0 - up - down;
@@ -256,8 +257,11 @@ impl Move {
 
 /// A term with one shape parameter moved by a stride, up or down, for each parameter.
 fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
-    let each =
-        (0..own.numbers().len()).flat_map(|place| [true, false].map(|up| Move { place, up }));
+    let each = (0..2 * own.numbers().len()).into_par_iter();
+    let each = each.map(|k| Move {
+        place: k / 2,
+        up: k % 2 == 0,
+    });
     each.filter_map(|by| Some((by, moved_by(problem, own, by, stride)?)))
         .collect()
 }

@@ -28,8 +28,8 @@ pub struct Packed {
     cause: Cause,
     shape: Vec<f64>,
     /// The rows of each column, and the deviation of its coefficient that is known.
-    free: Vec<(Box<[f32]>, f64)>,
-    fixed: Option<Box<[f32]>>,
+    pub free: Vec<(Box<[f32]>, f64)>,
+    pub fixed: Option<Box<[f32]>>,
 }
 
 impl Kept {
@@ -71,11 +71,20 @@ impl Packed {
     }
 
     fn trial(&self, usable: &[bool]) -> Term {
+        self.term(|own| unpacked(own, usable))
+    }
+
+    /// The term with columns that hold no rows.
+    pub fn without_rows(&self) -> Term {
+        self.term(|_| Vec::new())
+    }
+
+    fn term(&self, white: impl Fn(&[f32]) -> Vec<f64>) -> Term {
         let rows = |own: &[f32], prior_deviation: f64| {
             Arc::new(Rows {
                 signal: Vec::new(),
                 raw: Vec::new(),
-                white: unpacked(own, usable),
+                white: white(own),
                 prior_deviation,
             })
         };

@@ -2,6 +2,7 @@
 
 use super::run::FiveBarRun;
 use crate::plants::joined::Joins;
+use rayon::prelude::*;
 
 impl Joins for FiveBarRun {
     fn append(&mut self, run: &FiveBarRun) {
@@ -49,16 +50,16 @@ impl Joins for FiveBarRun {
 /// Signals of both outputs over a joined run, computed separately for each recording.
 pub fn over_parts(
     run: &FiveBarRun,
-    of: impl Fn(&FiveBarRun) -> Option<Vec<Vec<f64>>>,
+    of: impl Fn(&FiveBarRun) -> Option<Vec<Vec<f64>>> + Sync,
 ) -> Option<Vec<Vec<f64>>> {
     if run.parts.is_empty() {
         return of(run);
     }
+    let each: Option<Vec<Vec<Vec<f64>>>> = run.parts.par_iter().map(&of).collect();
     let count = run.len();
     let mut whole: Vec<Vec<f64>> = Vec::new();
     let mut first = 0;
-    for part in &run.parts {
-        let signals = of(part)?;
+    for (part, signals) in run.parts.iter().zip(each?) {
         whole.resize_with(signals.len(), || vec![0.0; 2 * count]);
         for (whole, signal) in whole.iter_mut().zip(&signals) {
             let (a, b) = signal.split_at(signal.len() / 2);

@@ -4,6 +4,7 @@ use super::run::JointRun;
 use crate::plant::Columns;
 use crate::plants::joined::Joins;
 use core::ops::Range;
+use rayon::prelude::*;
 
 impl Joins for JointRun {
     fn append(&mut self, run: &JointRun) {
@@ -54,12 +55,13 @@ pub fn parts(run: &JointRun) -> impl Iterator<Item = (&JointRun, Range<usize>)> 
 /// Columns over a joined run, computed separately for each recording.
 pub fn over_parts(
     run: &JointRun,
-    of: impl Fn(&JointRun, Range<usize>) -> Option<Columns>,
+    of: impl Fn(&JointRun, Range<usize>) -> Option<Columns> + Sync,
 ) -> Option<Columns> {
     if run.parts.is_empty() {
         return of(run, 0..run.len());
     }
-    let each = parts(run).map(|(part, range)| of(part, range));
+    let parts: Vec<_> = parts(run).collect();
+    let each = parts.into_par_iter().map(|(part, range)| of(part, range));
     each.collect::<Option<Vec<Columns>>>()?
         .into_iter()
         .reduce(after)
