@@ -30,7 +30,7 @@ pub enum Scales {
 }
 
 /// Something that a model may lack: a mechanism at a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Cause {
     /// The mechanism.
     pub mechanism: Mechanism,

@@ -9,6 +9,7 @@ mod late;
 mod many;
 mod refine;
 mod score;
+mod walk;
 
 use crate::candidates::{all_causes, is_at_an_end};
 use crate::cause::Cause;
@@ -45,7 +46,7 @@ pub struct Explanation {
 /// The explanations of a recording, the most probable first.
 #[derive(Clone, Debug)]
 pub struct Explanations {
-    /// Those whose weight is at least `LISTED`.
+    /// Those that are weighed; one of an arm may be one of thousands, each of little weight.
     pub living: Vec<Explanation>,
 }
 
@@ -83,7 +84,8 @@ impl Explanations {
 
     /// The causes that rival explanations hold instead of a cause of the leading one.
     ///
-    /// Only causes whose summed weight reaches `OFFERED` are listed, the heaviest first.
+    /// Only causes are listed whose summed weight there, beyond what it would be if they stood beside
+    /// the cause as often, reaches `OFFERED`; the heaviest first.
     pub fn instead_of(&self, cause: Cause) -> Vec<Cause> {
         let Some((leading, others)) = self.living.split_first() else {
             return Vec::new();
@@ -95,10 +97,13 @@ impl Explanations {
                 instead.push(term.cause);
             }
         }
-        let weight = |other: &Cause| -> f64 {
-            let holds = without().filter(|own| own.holds(*other));
-            holds.map(|own| own.weight).sum()
+        let sum = |held: bool, other: Option<&Cause>| -> f64 {
+            let those = self.living.iter().filter(|own| own.holds(cause) == held);
+            let those = those.filter(|own| other.is_none_or(|other| own.holds(*other)));
+            those.map(|own| own.weight).sum()
         };
+        let odds = sum(false, None) / sum(true, None).max(f64::MIN_POSITIVE);
+        let weight = |other: &Cause| sum(false, Some(other)) - odds * sum(true, Some(other));
         let is_as = |other: &Cause| {
             let mut own = without().filter(|own| own.holds(*other));
             own.any(|own| leading.is_as(own, cause))
@@ -289,17 +294,18 @@ impl Round {
             judge.all_matter(folds, bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
         let scored = ranked(problem, folds, &judge, all.cloned().collect());
-        living(problem, folds.rows(), scored, noise)
+        living(problem, folds.rows(), scored, noise, LISTED)
     }
 }
 
-/// Explanations with their probability; those below `LISTED` are dropped. `scored` is sorted, the
-/// best first.
+/// Explanations with their probability, without those below `least`. `scored` is sorted, the best
+/// first.
 fn living(
     problem: &Problem,
     rows: f64,
     scored: Vec<(f64, Fitted)>,
     noise: f64,
+    least: f64,
 ) -> Vec<Explanation> {
     let most = scored.first().map_or(0.0, |(score, _)| *score);
     let sum: f64 = scored
@@ -312,7 +318,7 @@ fn living(
         leaves: (own.left() / rows).sqrt() * noise / problem.floor,
         terms: own.terms,
     });
-    listed.filter(|own| own.weight >= LISTED).collect()
+    listed.filter(|own| own.weight >= least).collect()
 }
 
 /// Explanations with their log posterior, up to a constant, the most probable first.

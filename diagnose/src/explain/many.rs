@@ -7,9 +7,10 @@ use super::beam::may_join;
 use super::discrepancy::rows_a_sample;
 use super::fitted::{Fitted, Folds};
 use super::score::{Judge, is_impossible, prior};
+use super::walk::{self, Sets, Tried};
 use super::{Explanation, Explanations, living, selected, shapes_of};
 use crate::candidates::is_plain;
-use crate::cause::Place;
+use crate::cause::{Cause, Place};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, reduced_target};
 use crate::rules::MOST_OF_MANY;
@@ -18,7 +19,7 @@ use rayon::prelude::*;
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Family;
 use rigproof_spec::effect::Mechanism;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Explains a recording of many places on top of the terms of its nominal model.
 pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
@@ -36,9 +37,8 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
     let rows = rows_a_sample(problem, &Folds::of(problem), &white);
     problem.rows_a_sample = rows;
     let round = Round::of(problem, &nominal, noise, rows);
-    let leading = round.searched(problem);
     let explanations = Explanations {
-        living: round.neighbours(problem, &leading, noise),
+        living: round.weighed(problem, noise),
     };
     (selected(problem, nominal, &explanations), explanations)
 }
@@ -243,32 +243,72 @@ impl Round {
         })
     }
 
-    /// The leading explanation and its neighbours: each term removed, and each exchanged for the
-    /// best other one at its place.
-    fn neighbours(&self, problem: &Problem, leading: &Fitted, noise: f64) -> Vec<Explanation> {
-        let others = (0..leading.terms.len())
-            .into_par_iter()
-            .flat_map_iter(|index| {
-                let fewer = self.without(leading, index);
-                let best = leading.terms.get(index).and_then(|own| {
-                    let beside = self
-                        .tried
-                        .iter()
-                        .filter(|term| term.cause.at == own.cause.at);
-                    let is_own = |given: &Term| given.cause == own.cause;
-                    let each =
-                        beside.filter_map(|term| self.with_instead(problem, leading, term, is_own));
-                    each.max_by(|a, b| a.0.total_cmp(&b.0))
-                });
-                let fewer = (self.score(problem, &fewer), fewer);
-                [Some(fewer), best]
-                    .into_iter()
-                    .flatten()
-                    .collect::<Vec<_>>()
-            });
-        let mut all: Vec<(f64, Fitted)> = others.collect();
-        all.push((self.score(problem, leading), leading.clone()));
-        all.sort_by(|a, b| b.0.total_cmp(&a.0));
-        living(problem, self.folds.rows(), all, noise)
+    /// The explanations that random walks from the leading one visit, the most probable first.
+    fn weighed(&self, problem: &Problem, noise: f64) -> Vec<Explanation> {
+        let leading = self.searched(problem);
+        let start = (self.score(problem, &leading), leading);
+        let sets = Of {
+            round: self,
+            problem,
+        };
+        let mut visited = walk::visited(&sets, &start, &self.reachable(problem, &start));
+        visited.sort_by(|a, b| b.0.total_cmp(&a.0));
+        living(problem, self.folds.rows(), visited, noise, 0.0)
+    }
+
+    /// One term of each cause: that of the explanation, or in the shape with which it joins it best.
+    /// The nearer its posterior then is, the more often it is tried.
+    fn reachable<'a>(&'a self, problem: &Problem, start: &'a (f64, Fitted)) -> Vec<Tried<'a>> {
+        let (score, own) = start;
+        let weight = |other: f64| 1.0 / (1.0 + (score - other).abs());
+        let inside = own.terms.iter().enumerate().map(|(index, term)| Tried {
+            term,
+            weight: weight(self.score(problem, &self.without(own, index))),
+        });
+        let outside = self.tried.par_iter().filter_map(|term| {
+            if own.causes().any(|cause| cause == term.cause) {
+                return None;
+            }
+            let joined = may_join(&own.terms, term.cause).then(|| own.with(&self.folds, term));
+            let joined = joined.filter(|own| !is_impossible(problem, own));
+            let joined = joined.map(|own| self.score(problem, &own));
+            let instead = || Some(self.with_instead(problem, own, term, |_| true)?.0);
+            Some((joined.or_else(instead)?, term))
+        });
+        let mut best: BTreeMap<Cause, (f64, &Term)> = BTreeMap::new();
+        for (score, term) in outside.collect::<Vec<_>>() {
+            let same = best.entry(term.cause).or_insert((score, term));
+            if score > same.0 {
+                *same = (score, term);
+            }
+        }
+        let outside = best.into_values().map(|(score, term)| Tried {
+            term,
+            weight: weight(score),
+        });
+        inside.chain(outside).collect()
+    }
+}
+
+/// The sets of terms of a round.
+struct Of<'a> {
+    round: &'a Round,
+    problem: &'a Problem<'a>,
+}
+
+impl Sets for Of<'_> {
+    fn score(&self, own: &Fitted) -> f64 {
+        match is_impossible(self.problem, own) {
+            true => f64::NEG_INFINITY,
+            false => self.round.score(self.problem, own),
+        }
+    }
+
+    fn with(&self, own: &Fitted, term: &Term) -> Option<Fitted> {
+        may_join(&own.terms, term.cause).then(|| own.with(&self.round.folds, term))
+    }
+
+    fn without(&self, own: &Fitted, index: usize) -> Fitted {
+        self.round.without(own, index)
     }
 }

@@ -45,6 +45,10 @@ rules! {
     MOST_TERMS: usize = 3, "terms", DRIVEN;
     /// An arm: the most terms of its explanation.
     MOST_OF_MANY: usize = 48, "terms", REASON;
+    /// An arm: random walks over sets of terms, which find those that are weighed.
+    WALKS: usize = 4, "walks", REASON;
+    /// An arm: steps of each walk.
+    WALK_STEPS: usize = 1500, "steps", REASON;
     /// An arm: all inertial parameters of a link cost as much as this many parameters: one description gets them wrong together, and that is rarer than a single wrong mass.
     A_LINK: usize = 3, "numbers", "thirty concealed arms, seeds 0 to 29";
     /// An arm: standard deviation of a described inertial number about the true one, as a share of the link's mass, of mass times radius of gyration, or of mass times its square: a ridge towards the description, since a motion that leaves numbers of links open would give them any size.

@@ -1,0 +1,191 @@
+//! This file finds the explanations of a plant with many places that have a share in the posterior.
+//!
+//! Where several places lack something, thousands of sets may explain a recording about equally
+//! well. A Markov chain over sets visits each as often as it is probable (Madigan and York,
+//! International Statistical Review 63, 1995), so what it never visits hardly counts. Those that it
+//! visited are then weighed by their posterior, which has no error of sampling.
+
+use super::fitted::Fitted;
+use crate::cause::Cause;
+use crate::problem::Term;
+use crate::rules::{WALK_STEPS, WALKS};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// What a walk goes over.
+pub trait Sets: Sync {
+    /// The log posterior of a set, up to a constant; −∞ for one that is no physics.
+    fn score(&self, own: &Fitted) -> f64;
+
+    /// A set with one term more; `None` where the term may not join it.
+    fn with(&self, own: &Fitted, term: &Term) -> Option<Fitted>;
+
+    fn without(&self, own: &Fitted, index: usize) -> Fitted;
+}
+
+/// A set with its log posterior.
+pub type Scored = (f64, Fitted);
+
+/// A term with the weight with which a walk tries it.
+pub struct Tried<'a> {
+    pub term: &'a Term,
+    pub weight: f64,
+}
+
+/// The sets that walks from `start` visited.
+pub fn visited(sets: &impl Sets, start: &Scored, tried: &[Tried]) -> Vec<Scored> {
+    let walks = (0..WALKS).into_par_iter().map(|seed| {
+        let random = Pcg64Mcg::seed_from_u64(seed as u64);
+        Walk {
+            sets,
+            tried,
+            random,
+        }
+        .steps(start.clone())
+    });
+    let mut all = Visited::new();
+    for own in walks.collect::<Vec<_>>() {
+        all.extend(own);
+    }
+    all.into_values().collect()
+}
+
+/// Sets by their causes.
+type Visited = BTreeMap<Vec<Cause>, Scored>;
+
+/// One walk.
+struct Walk<'a, S> {
+    sets: &'a S,
+    tried: &'a [Tried<'a>],
+    random: Pcg64Mcg,
+}
+
+impl<'a, S: Sets> Walk<'a, S> {
+    /// The sets that it visits.
+    fn steps(mut self, mut now: Scored) -> Visited {
+        let mut seen = Visited::new();
+        for _ in 0..WALK_STEPS {
+            let mut causes: Vec<Cause> = now.1.causes().collect();
+            causes.sort();
+            seen.entry(causes).or_insert_with(|| now.clone());
+            let next = self
+                .proposed(&now.1)
+                .map(|own| (self.sets.score(&own), own));
+            // Each proposal is as likely as its way back (Metropolis and others, Journal of
+            // Chemical Physics 21, 1953).
+            let accepted = next.filter(|next| self.share() < libm::exp(next.0 - now.0));
+            now = accepted.unwrap_or(now);
+        }
+        seen
+    }
+
+    /// The set with one term added or removed, or every other time with one exchanged.
+    fn proposed(&mut self, now: &Fitted) -> Option<Fitted> {
+        let exchanges = self.share() < 0.5;
+        let term = self.drawn(exchanges)?;
+        let place = now.causes().position(|cause| cause == term.cause);
+        match (place, exchanges) {
+            (Some(index), false) => Some(self.sets.without(now, index)),
+            (None, false) => self.sets.with(now, term),
+            (Some(_), true) => None,
+            (None, true) if now.terms.is_empty() => None,
+            (None, true) => {
+                let index = (self.share() * now.terms.len() as f64) as usize;
+                self.sets.with(&self.sets.without(now, index), term)
+            }
+        }
+    }
+
+    /// A term by its weight, or each alike: the way back of an exchange draws another term.
+    fn drawn(&mut self, alike: bool) -> Option<&'a Term> {
+        let (share, tried) = (self.share(), self.tried);
+        if alike {
+            let index = (share * tried.len() as f64) as usize;
+            return tried.get(index).map(|own| own.term);
+        }
+        let sum: f64 = tried.iter().map(|own| own.weight).sum();
+        let mut left = share * sum;
+        let drawn = tried.iter().find(|own| {
+            left -= own.weight;
+            left < 0.0
+        });
+        drawn.or(tried.last()).map(|own| own.term)
+    }
+
+    /// A number from 0 to below 1.
+    fn share(&mut self) -> f64 {
+        (self.random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explain::fitted::Folds;
+    use crate::plants::five_bar::recorded::{problem, short_run};
+    use crate::plants::five_bar::run::at;
+    use rigproof_spec::effect::Mechanism;
+    use rigproof_spec::joint::Joint;
+
+    /// Terms with odds of their own; one is no physics beside another.
+    struct Toy {
+        folds: Folds,
+        bare: Fitted,
+        odds: Vec<(Cause, f64)>,
+        apart: [Cause; 2],
+    }
+
+    impl Sets for Toy {
+        fn score(&self, own: &Fitted) -> f64 {
+            let holds = |cause: &Cause| own.causes().any(|own| own == *cause);
+            if self.apart.iter().all(holds) {
+                return f64::NEG_INFINITY;
+            }
+            let each = self.odds.iter().filter(|(cause, _)| holds(cause));
+            each.map(|(_, odds)| odds).sum()
+        }
+
+        fn with(&self, own: &Fitted, term: &Term) -> Option<Fitted> {
+            let is_new = own.causes().all(|cause| cause != term.cause);
+            is_new.then(|| own.with(&self.folds, term))
+        }
+
+        fn without(&self, own: &Fitted, index: usize) -> Fitted {
+            let mut terms = own.terms.clone();
+            terms.remove(index);
+            self.bare.of(&self.folds, &terms)
+        }
+    }
+
+    #[test]
+    fn a_walk_finds_every_set_that_counts_and_none_that_is_no_physics() {
+        let run = short_run();
+        let problem = problem(&run);
+        let causes = [Joint::A, Joint::B, Joint::C].map(|joint| at(Mechanism::Viscous, joint));
+        let terms = causes.map(|cause| problem.whole_term(cause, &[]).unwrap());
+        let folds = Folds::of(&problem);
+        let toy = Toy {
+            bare: Fitted::bare(&folds, &problem.target.white, &[]),
+            folds,
+            odds: causes.into_iter().zip([2.0, -2.0, -1.0]).collect(),
+            apart: [causes[1], causes[2]],
+        };
+        let weights = [0.3, 1.0, 0.5].into_iter();
+        let tried: Vec<Tried> = terms
+            .iter()
+            .zip(weights)
+            .map(|(term, weight)| Tried { term, weight })
+            .collect();
+        let found = visited(&toy, &(0.0, toy.bare.clone()), &tried);
+        let mut sets: Vec<Vec<Cause>> = found.iter().map(|own| own.1.causes().collect()).collect();
+        sets.iter_mut().for_each(|own| own.sort());
+        sets.sort();
+        let [a, b, c] = causes;
+        let mut expected = vec![vec![], vec![a], vec![b], vec![c], vec![a, b], vec![a, c]];
+        expected.sort();
+        assert_eq!(sets, expected);
+        assert!(found.iter().all(|(score, own)| *score == toy.score(own)));
+    }
+}
