@@ -98,12 +98,18 @@ def bent(said, right, other):
     """Probabilities `other` by the line in log odds that fits said and right best (Platt 1999), both outcomes counted once more."""
     x = np.column_stack([np.ones_like(said), log_odds(said)])
     target = np.where(right, (right.sum() + 1) / (right.sum() + 2), 1 / ((~right).sum() + 2))
+
+    def cost(line):
+        return np.sum(np.logaddexp(0, x @ line) - target * (x @ line)) + 0.5 * WEAK * np.sum((line - [0, 1]) ** 2)
+
     line = np.array([0.0, 1.0])
-    for _ in range(50):
+    for _ in range(100):
         now = 1 / (1 + np.exp(-x @ line))
-        weight = np.maximum(now * (1 - now), 1e-9)
         slope = x.T @ (target - now) - WEAK * (line - [0, 1])
-        line += np.linalg.solve(x.T @ (weight[:, None] * x) + WEAK * np.eye(2), slope)
+        step = np.linalg.solve(x.T @ ((now * (1 - now))[:, None] * x) + WEAK * np.eye(2), slope)
+        while cost(line + step) > cost(line) and np.abs(step).max() > 1e-9:
+            step /= 2
+        line = line + step
     return 1 / (1 + np.exp(-(line[0] + line[1] * log_odds(other)))), line
 
 
