@@ -294,28 +294,45 @@ impl Round {
             judge.all_matter(folds, bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
         let scored = ranked(problem, folds, &judge, all.cloned().collect());
-        living(problem, folds.rows(), scored, noise, LISTED)
+        let scored = scored.iter().map(|(score, own)| Judged::of(*score, own));
+        living(problem, folds.rows(), scored.collect(), noise, LISTED)
     }
 }
 
-/// Explanations with their probability, without those below `least`. `scored` is sorted, the best
+/// An explanation with its log posterior, up to a constant, before it is weighed.
+#[derive(Clone)]
+struct Judged {
+    score: f64,
+    /// Its squared residual over all left-out blocks.
+    left: f64,
+    terms: Vec<Term>,
+}
+
+impl Judged {
+    fn of(score: f64, own: &Fitted) -> Judged {
+        Judged {
+            score,
+            left: own.left(),
+            terms: own.terms.clone(),
+        }
+    }
+}
+
+/// Explanations with their probability, without those below `least`. `judged` is sorted, the best
 /// first.
 fn living(
     problem: &Problem,
     rows: f64,
-    scored: Vec<(f64, Fitted)>,
+    judged: Vec<Judged>,
     noise: f64,
     least: f64,
 ) -> Vec<Explanation> {
-    let most = scored.first().map_or(0.0, |(score, _)| *score);
-    let sum: f64 = scored
-        .iter()
-        .map(|(score, _)| libm::exp(score - most))
-        .sum();
-    let listed = scored.into_iter().map(|(score, own)| Explanation {
-        weight: libm::exp(score - most) / sum,
-        evidence: score - prior(problem, &own.terms),
-        leaves: (own.left() / rows).sqrt() * noise / problem.floor,
+    let most = judged.first().map_or(0.0, |own| own.score);
+    let sum: f64 = judged.iter().map(|own| libm::exp(own.score - most)).sum();
+    let listed = judged.into_iter().map(|own| Explanation {
+        weight: libm::exp(own.score - most) / sum,
+        evidence: own.score - prior(problem, &own.terms),
+        leaves: (own.left / rows).sqrt() * noise / problem.floor,
         terms: own.terms,
     });
     listed.filter(|own| own.weight >= least).collect()

@@ -252,7 +252,7 @@ impl Round {
             problem,
         };
         let mut visited = walk::visited(&sets, &start, &self.reachable(problem, &start));
-        visited.sort_by(|a, b| b.0.total_cmp(&a.0));
+        visited.sort_by(|a, b| b.score.total_cmp(&a.score));
         living(problem, self.folds.rows(), visited, noise, 0.0)
     }
 

@@ -5,6 +5,7 @@
 //! International Statistical Review 63, 1995), so what it never visits hardly counts. Those that it
 //! visited are then weighed by their posterior, which has no error of sampling.
 
+use super::Judged;
 use super::fitted::Fitted;
 use crate::cause::Cause;
 use crate::problem::Term;
@@ -34,8 +35,8 @@ pub struct Tried<'a> {
     pub weight: f64,
 }
 
-/// The sets that walks from `start` visited.
-pub fn visited(sets: &impl Sets, start: &Scored, tried: &[Tried]) -> Vec<Scored> {
+/// The sets that walks from `start` visited. Their fits are not kept: there may be thousands.
+pub fn visited(sets: &impl Sets, start: &Scored, tried: &[Tried]) -> Vec<Judged> {
     let walks = (0..WALKS).into_par_iter().map(|seed| {
         let random = Pcg64Mcg::seed_from_u64(seed as u64);
         Walk {
@@ -53,7 +54,7 @@ pub fn visited(sets: &impl Sets, start: &Scored, tried: &[Tried]) -> Vec<Scored>
 }
 
 /// Sets by their causes.
-type Visited = BTreeMap<Vec<Cause>, Scored>;
+type Visited = BTreeMap<Vec<Cause>, Judged>;
 
 /// One walk.
 struct Walk<'a, S> {
@@ -69,7 +70,8 @@ impl<'a, S: Sets> Walk<'a, S> {
         for _ in 0..WALK_STEPS {
             let mut causes: Vec<Cause> = now.1.causes().collect();
             causes.sort();
-            seen.entry(causes).or_insert_with(|| now.clone());
+            seen.entry(causes)
+                .or_insert_with(|| Judged::of(now.0, &now.1));
             let next = self
                 .proposed(&now.1)
                 .map(|own| (self.sets.score(&own), own));
@@ -179,13 +181,18 @@ mod tests {
             .map(|(term, weight)| Tried { term, weight })
             .collect();
         let found = visited(&toy, &(0.0, toy.bare.clone()), &tried);
-        let mut sets: Vec<Vec<Cause>> = found.iter().map(|own| own.1.causes().collect()).collect();
-        sets.iter_mut().for_each(|own| own.sort());
+        let sets = found.iter().map(|own| {
+            let mut causes: Vec<Cause> = own.terms.iter().map(|term| term.cause).collect();
+            causes.sort();
+            causes
+        });
+        let mut sets: Vec<Vec<Cause>> = sets.collect();
         sets.sort();
         let [a, b, c] = causes;
         let mut expected = vec![vec![], vec![a], vec![b], vec![c], vec![a, b], vec![a, c]];
         expected.sort();
         assert_eq!(sets, expected);
-        assert!(found.iter().all(|(score, own)| *score == toy.score(own)));
+        let fitted = |own: &Judged| toy.bare.of(&toy.folds, &own.terms);
+        assert!(found.iter().all(|own| own.score == toy.score(&fitted(own))));
     }
 }
