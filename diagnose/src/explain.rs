@@ -289,13 +289,12 @@ impl Round {
             all,
             changed,
         } = self;
-        let all = all.iter().chain(changed).filter(|own| {
+        let possible = all.iter().chain(changed).filter(|own| {
             let mut terms = own.terms.iter();
             judge.all_matter(folds, bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
-        let scored = ranked(problem, folds, &judge, all.cloned().collect());
-        let scored = scored.iter().map(|(score, own)| Judged::of(*score, own));
-        living(problem, folds.rows(), scored.collect(), noise, LISTED)
+        let judged = possible.map(|own| Judged::of(judge.score(problem, folds, own), own));
+        living(problem, folds.rows(), judged.collect(), noise, LISTED)
     }
 }
 
@@ -318,15 +317,15 @@ impl Judged {
     }
 }
 
-/// Explanations with their probability, without those below `least`. `judged` is sorted, the best
-/// first.
+/// Explanations with their probability, the best first, without those below `least`.
 fn living(
     problem: &Problem,
     rows: f64,
-    judged: Vec<Judged>,
+    mut judged: Vec<Judged>,
     noise: f64,
     least: f64,
 ) -> Vec<Explanation> {
+    judged.sort_by(|a, b| b.score.total_cmp(&a.score));
     let most = judged.first().map_or(0.0, |own| own.score);
     let sum: f64 = judged.iter().map(|own| libm::exp(own.score - most)).sum();
     let listed = judged.into_iter().map(|own| Explanation {
@@ -340,8 +339,10 @@ fn living(
 
 /// Explanations with their log posterior, up to a constant, the most probable first.
 fn ranked(problem: &Problem, folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
-    let score = |own: &Fitted| judge.evidence(folds, own) + prior(problem, &own.terms);
-    let mut scored: Vec<(f64, Fitted)> = all.into_iter().map(|own| (score(&own), own)).collect();
+    let scored = all
+        .into_iter()
+        .map(|own| (judge.score(problem, folds, &own), own));
+    let mut scored: Vec<(f64, Fitted)> = scored.collect();
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
     scored
 }

@@ -4,7 +4,7 @@
 mod kept;
 mod within;
 
-pub use kept::Kept;
+pub use kept::{Kept, Key, key};
 
 use crate::cause::Cause;
 use crate::effect::Effect;
@@ -104,10 +104,10 @@ pub struct Problem<'a> {
 /// The least and the greatest value of each parameter of a shape.
 pub type Bounds = Arc<[(f64, f64)]>;
 
-/// A cause, a shape, their columns, and the averages of these if they were requested.
-type Recent = (Cause, Vec<f64>, Arc<Columns>, Averages);
+/// A cause, a shape and what belongs to them.
+type Recent = (Cause, Vec<f64>, (Arc<Columns>, Averages));
 
-/// The averages of columns over all windows.
+/// The averages of columns over all windows, once they were requested.
 type Averages = Arc<OnceLock<Vec<Vec<f64>>>>;
 
 impl<'a> Problem<'a> {
@@ -264,14 +264,13 @@ impl<'a> Problem<'a> {
     fn columns(&self, cause: Cause, shape: &[f64]) -> Option<(Arc<Columns>, Averages)> {
         let recent = || self.recent.lock().unwrap_or_else(PoisonError::into_inner);
         let thread = rayon::current_thread_index();
-        let same = |(own, known, ..): &&Recent| (*own, &known[..]) == (cause, shape);
-        if let Some((.., columns, averages)) = recent().get(&thread).filter(same) {
-            return Some((columns.clone(), averages.clone()));
+        let same = |(own, known, _): &&Recent| (*own, &known[..]) == (cause, shape);
+        if let Some((.., own)) = recent().get(&thread).filter(same) {
+            return Some(own.clone());
         }
         let columns = Arc::new(self.run.columns(cause, shape, None)?);
-        let own = (columns.clone(), Averages::default());
-        let (columns, averages) = own.clone();
-        recent().insert(thread, (cause, shape.to_vec(), columns, averages));
+        let own = (columns, Averages::default());
+        recent().insert(thread, (cause, shape.to_vec(), own.clone()));
         Some(own)
     }
 

@@ -6,7 +6,7 @@ use super::fitted::{Fitted, Folds};
 use super::refine::refined;
 use super::score::{Judge, is_impossible};
 use crate::cause::Cause;
-use crate::problem::{Kept, Problem, Term};
+use crate::problem::{Kept, Key, Problem, Term, key};
 use crate::rules::{BEAM, KEPT, MOST_TERMS};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 type Names = Vec<String>;
 
 /// What stands for an explanation whose terms are the same, shapes and all.
-type Exact = Vec<(String, Vec<u64>)>;
+type Exact = Vec<Key>;
 
 /// What a search needs.
 pub struct Beam<'a> {
@@ -45,7 +45,7 @@ impl Beam<'_> {
             // All single causes are kept. A cause that begins late may explain nothing when it is
             // fitted to the whole recording.
             let most = if size == 1 { usize::MAX } else { BEAM + KEPT };
-            extended.extend(living.iter().map(|own| self.exact(own)));
+            extended.extend(living.iter().map(exact));
             let (near, far) = self.children(&living, most);
             living = self.by_evidence(near);
             self.keep(&mut best, living.iter().cloned().chain(far));
@@ -79,26 +79,13 @@ impl Beam<'_> {
                 let mut terms = own.terms.clone();
                 terms.remove(index);
                 let own = self.bare.of(self.folds, &terms);
-                if extended.insert(self.exact(&own)) {
+                if extended.insert(exact(&own)) {
                     fewer.push(own);
                 }
             }
         }
         let (near, far) = self.children(&fewer, KEPT);
         near.into_iter().chain(far).chain(fewer).collect()
-    }
-
-    fn exact(&self, own: &Fitted) -> Exact {
-        let bits = |term: &Term| -> Vec<u64> {
-            let numbers = term.shape.iter().chain(&term.onset_s);
-            numbers.map(|own| own.to_bits()).collect()
-        };
-        let terms = own.terms.iter();
-        let mut exact: Exact = terms
-            .map(|term| (self.problem.run.cause_name(term.cause), bits(term)))
-            .collect();
-        exact.sort();
-        exact
     }
 
     /// The best extension by one term for each set of causes, at most so many: the leading ones
@@ -154,6 +141,16 @@ fn ranked(best: &Best) -> Vec<&Fitted> {
     let mut all: Vec<&(f64, Fitted)> = best.values().collect();
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
     all.into_iter().map(|(_, own)| own).collect()
+}
+
+fn exact(own: &Fitted) -> Exact {
+    let of_term = |term: &Term| {
+        let numbers: Vec<f64> = term.shape.iter().chain(&term.onset_s).copied().collect();
+        key(term.cause, &numbers)
+    };
+    let mut exact: Exact = own.terms.iter().map(of_term).collect();
+    exact.sort();
+    exact
 }
 
 /// Whether a cause may be added. It enters once at each place, in one form: a second one would

@@ -6,7 +6,7 @@
 use super::beam::may_join;
 use super::discrepancy::rows_a_sample;
 use super::fitted::{Fitted, Folds};
-use super::score::{Judge, is_impossible, prior};
+use super::score::{Judge, is_impossible};
 use super::walk::{self, Sets, Tried};
 use super::{Explanation, Explanations, living, selected, shapes_of};
 use crate::candidates::is_plain;
@@ -89,7 +89,7 @@ impl Round {
     }
 
     fn score(&self, problem: &Problem, fitted: &Fitted) -> f64 {
-        self.judge.evidence(&self.folds, fitted) + prior(problem, &fitted.terms)
+        self.judge.score(problem, &self.folds, fitted)
     }
 
     /// The better of two searches: one starts from nothing, the other from corrected inertias of
@@ -251,8 +251,7 @@ impl Round {
             round: self,
             problem,
         };
-        let mut visited = walk::visited(&sets, &start, &self.reachable(problem, &start));
-        visited.sort_by(|a, b| b.score.total_cmp(&a.score));
+        let visited = walk::visited(&sets, &start, &self.reachable(problem, &start));
         living(problem, self.folds.rows(), visited, noise, 0.0)
     }
 

@@ -47,6 +47,11 @@ impl Judge {
         each.sum()
     }
 
+    /// The log posterior of an explanation, up to a constant.
+    pub fn score(&self, problem: &Problem, folds: &Folds, fitted: &Fitted) -> f64 {
+        self.evidence(folds, fitted) + prior(problem, &fitted.terms)
+    }
+
     /// Whether removing any one term increases the residual by more than the granted discrepancy.
     ///
     /// The residual is that of the fit itself: a block that alone determines a term would make its

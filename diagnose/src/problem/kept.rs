@@ -12,8 +12,11 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::{Arc, PoisonError, RwLock};
 
-/// The kept terms, by cause and by the bits of their shape.
-pub(super) type All = RwLock<HashMap<(Cause, Vec<u64>), Arc<Kept>>>;
+/// What a cause and the bits of its numbers stand for.
+pub type Key = (Cause, Vec<u64>);
+
+/// The kept terms, by cause and shape.
+pub(super) type All = RwLock<HashMap<Key, Arc<Kept>>>;
 
 /// A term without onset that is tried repeatedly.
 #[derive(Clone, Debug)]
@@ -194,7 +197,7 @@ impl Problem<'_> {
     }
 }
 
-fn key(cause: Cause, shape: &[f64]) -> (Cause, Vec<u64>) {
+pub fn key(cause: Cause, shape: &[f64]) -> Key {
     (cause, shape.iter().map(|x| x.to_bits()).collect())
 }
 
