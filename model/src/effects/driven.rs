@@ -14,7 +14,7 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
     facts: Facts {
         in_sets: true,
         usual: Usual::Seldom,
-        shapes: Shapes::Geometric {
+        shapes: Shapes::OfLoad {
             low: 0.03,
             high: 0.5,
             count: 7,

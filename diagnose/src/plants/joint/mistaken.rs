@@ -175,11 +175,11 @@ pub fn impossible_numbers(
     }
 }
 
-/// A nominal model whose residual is larger than the effort itself.
+/// A nominal model whose residual is larger than the effort itself, and nothing explains it.
 fn explains_nothing(problem: &Problem, selection: &Selection) -> Option<Fault> {
     let left = usable_rms(problem, &selection.before.residual);
-    let leaves_noise = is_noise(problem, &selection.after);
-    (!leaves_noise && left > problem.effort_size).then(|| {
+    let is_nothing = left > problem.effort_size && !explains(problem, selection);
+    is_nothing.then(|| {
         throughout(
             problem,
             "position",
