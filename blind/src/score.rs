@@ -150,7 +150,7 @@ impl Score {
     /// Whether the diagnosis failed: it is not what the stratum calls right, or a name is false.
     pub fn is_miss(&self) -> bool {
         let right = match self.stratum {
-            Stratum::NotInLibrary => self.flagged && self.named.is_empty(),
+            Stratum::NotInLibrary => self.flagged && self.named.is_empty() || self.exact,
             _ => self.exact,
         };
         !right || !self.false_names.is_empty()

@@ -55,11 +55,13 @@ impl Explanations {
     ///
     /// An explanation that holds it at another place counts too where no motion tells the places
     /// apart.
-    pub fn probability(&self, cause: Cause) -> f64 {
+    /// A cause that the leading one holds several times, with several periods, counts where it
+    /// stands at least as many `times`.
+    pub fn probability(&self, cause: Cause, times: usize) -> f64 {
         let Some(leading) = self.living.first() else {
             return 0.0;
         };
-        let holds = |own: &&Explanation| own.holds(cause) || leading.is_as(own, cause);
+        let holds = |own: &&Explanation| own.forms(cause) >= times || leading.is_as(own, cause);
         self.living.iter().filter(holds).map(|own| own.weight).sum()
     }
 
@@ -131,8 +133,13 @@ impl Explanation {
 
     /// Whether it holds a cause, in any form of its law.
     fn holds(&self, cause: Cause) -> bool {
+        self.forms(cause) > 0
+    }
+
+    /// How many of its terms are forms of a cause.
+    fn forms(&self, cause: Cause) -> usize {
         let same = |own: Cause| own.at == cause.at && are_forms(own.mechanism, cause.mechanism);
-        self.terms.iter().any(|term| same(term.cause))
+        self.terms.iter().filter(|term| same(term.cause)).count()
     }
 }
 
@@ -414,16 +421,19 @@ fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) 
     let (before, after) = (fitted(&[]), fitted(&terms.iter().collect::<Vec<_>>()));
     let found: Vec<Found> = terms
         .iter()
-        .map(|term| {
-            let others = terms.iter().filter(|other| other.cause != term.cause);
-            let without = fitted(&others.collect::<Vec<_>>());
+        .enumerate()
+        .map(|(index, term)| {
+            let others = terms.iter().enumerate().filter(|(k, _)| *k != index);
+            let without = fitted(&others.map(|(_, own)| own).collect::<Vec<_>>());
+            let same = terms.iter().take(index);
+            let before = same.filter(|own| own.cause == term.cause).count();
             let even = vec![1.0; without.block_loss.len()];
             let (gain, z) = paired(&without.block_loss, &after.block_loss, &even);
             Found {
                 term: term.clone(),
                 z,
                 share: gain / without.left_out().max(1e-300),
-                probability: explanations.probability(term.cause),
+                probability: explanations.probability(term.cause, before + 1),
             }
         })
         .collect();

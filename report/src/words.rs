@@ -37,7 +37,8 @@ fn placed(what: String, name: &str, joint: Option<&str>) -> String {
 
 /// Mechanisms with their places in plain words, one at several joints once: "viscous friction, at joints A and C".
 ///
-/// Each has its name, its place and what is added to it; one with an addition stands by itself.
+/// Each has its name, its place and what is added to it; one with an addition stands by itself. What
+/// enters with several periods is said once.
 pub fn plain_each<'a>(
     all: impl IntoIterator<Item = (&'a str, Option<&'a str>, String)>,
 ) -> Vec<String> {
@@ -45,9 +46,11 @@ pub fn plain_each<'a>(
     for (name, place, added) in all {
         let same = groups.iter_mut().find(|(own, places, more)| {
             let are_joints = places.iter().chain([&place]).all(|at| is_joint(name, *at));
-            are_joints && *own == name && added.is_empty() && more.is_empty()
+            let is_again = places.contains(&place) || are_joints;
+            is_again && *own == name && added.is_empty() && more.is_empty()
         });
         match same {
+            Some((_, places, _)) if places.contains(&place) => {}
             Some((_, places, _)) => places.push(place),
             None => groups.push((name, vec![place], added)),
         }
@@ -186,6 +189,8 @@ mod tests {
         assert!(said[1].ends_with(", at joint A (+3 %)"), "{}", said[1]);
         assert!(said[2].ends_with("the same at every brake"), "{}", said[2]);
         assert_eq!(said[3], plain_at("payload", None));
+        let twice = plain_each(["B", "B"].map(|at| ("ripple", Some(at), String::new())));
+        assert_eq!(twice, [plain_at("ripple", Some("B"))]);
         let long = ["upper_arm_roll", "lower_arm_roll", "wrist_flex"];
         let said = plain_each(long.map(|at| ("dry_offset", Some(at), String::new())));
         assert!(said[0].ends_with("speed), at 3 joints"), "{}", said[0]);

@@ -5,9 +5,11 @@ use super::are_forms;
 use super::fitted::{Fitted, Folds};
 use super::refine::refined;
 use super::score::{Judge, is_impossible};
+use crate::candidates::is_periodic;
 use crate::cause::Cause;
 use crate::problem::{Kept, Key, Problem, Term, key};
-use crate::rules::{BEAM, KEPT, MOST_TERMS};
+use crate::rules::{BEAM, KEPT, MOST_TERMS, PEAKS_APART};
+use core::f64::consts::TAU;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -118,7 +120,7 @@ impl Beam<'_> {
     /// The evidence of an explanation with each term that may join it.
     fn extended(&self, parent: &Fitted) -> Vec<(f64, &Kept)> {
         let open = self.tried.par_iter().map(Arc::as_ref);
-        let open = open.filter(|own| may_join(&parent.terms, own.cause()));
+        let open = open.filter(|own| joins(self.problem, &parent.terms, own));
         let scored = open.filter_map(|own| {
             let fitted = parent.with_kept(self.folds, own);
             let evidence = || self.judge.evidence(self.folds, &fitted);
@@ -156,9 +158,21 @@ fn exact(own: &Fitted) -> Exact {
 /// Whether a cause may be added. It enters once at each place, in one form: a second one would
 /// only correct the shape of the first.
 pub fn may_join(terms: &[Term], cause: Cause) -> bool {
-    let same =
-        |own: &Term| own.cause.at == cause.at && are_forms(own.cause.mechanism, cause.mechanism);
-    !terms.iter().any(same)
+    !terms.iter().any(|own| is_form_of(own, cause))
+}
+
+/// Whether a term may be added. What is periodic enters with several periods, as far apart as peaks
+/// of a spectrum: a motor cogs by its poles and by its slots.
+pub fn joins(problem: &Problem, terms: &[Term], own: &Kept) -> bool {
+    let (cause, travel) = (own.cause(), problem.run.travel(own.cause().at));
+    let cycles = |shape: &[f64]| travel / shape.first().unwrap_or(&TAU);
+    let is_apart = |other: &Term| (cycles(&other.shape) - cycles(own.shape())).abs() > PEAKS_APART;
+    let mut forms = terms.iter().filter(|own| is_form_of(own, cause));
+    forms.all(|own| own.cause == cause && is_periodic(cause) && is_apart(own))
+}
+
+fn is_form_of(own: &Term, cause: Cause) -> bool {
+    own.cause.at == cause.at && are_forms(own.cause.mechanism, cause.mechanism)
 }
 
 /// The sorted names of the causes: the key of a set.

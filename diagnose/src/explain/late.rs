@@ -1,7 +1,7 @@
 //! This file searches for onsets: a term of an explanation that begins in the middle of a
 //! recording.
 
-use super::beam::may_join;
+use super::beam::joins;
 use super::fitted::{Fitted, Folds};
 use super::refine::refined;
 use super::score::{Judge, is_impossible};
@@ -114,7 +114,7 @@ impl Late<'_> {
             return Vec::new();
         };
         let open = tried.par_iter();
-        let open = open.filter(|own| may_join(&others.terms, own.cause()));
+        let open = open.filter(|own| joins(self.problem, &others.terms, own));
         let share = leading.share;
         let begun = open.filter_map(|own| self.begun(&others, own.cause(), own.shape(), share));
         // Each law from its own onset on: a little beside it, the right one may be among the last.

@@ -26,7 +26,7 @@ pub fn in_the_vocabulary(setup: &Setup, effect: &Effect) -> Effect {
 
 /// Sets of mechanisms that no recording of this experiment can tell from an effect: single ones; what a joint does whose twin turns alike; and for
 /// a bristle with unequal limits, once it has slid, the bristle with the mean of both and a constant of half their difference; for friction that varies
-/// about a level, dry friction of that level and what varies about 0.
+/// about a level, dry friction of that level and what varies about 0; cogging with two periods is cogging twice.
 pub fn sets(setup: &Setup, effect: &Effect) -> Vec<Vec<String>> {
     let single = equivalent(setup, effect).iter();
     let mut sets: Vec<Vec<String>> = single.map(|name| vec![(*name).to_owned()]).collect();
@@ -37,13 +37,15 @@ pub fn sets(setup: &Setup, effect: &Effect) -> Vec<Vec<String>> {
     }
     // What varies about a mean is the mean and what varies about 0.
     let both = match effect.form {
-        Form::OneSided => Some([Mechanism::Presliding, Mechanism::ConstantBias]),
-        Form::Uneven => Some([Mechanism::DryOffset, Mechanism::UnevenFriction]),
+        Form::OneSided => Some(vec![Mechanism::Presliding, Mechanism::ConstantBias]),
+        Form::Uneven => Some(vec![Mechanism::DryOffset, Mechanism::UnevenFriction]),
+        Form::TwoRipples => Some(vec![Mechanism::Ripple]),
         _ => None,
     };
     if let (Some(both), At::Joint(joint)) = (both, effect.at) {
-        let named = both.map(|mechanism| format!("{} at {}", mechanism.name(), joint.letter()));
-        sets.push(named.into());
+        let named = both.iter();
+        let named = named.map(|own| format!("{} at {}", own.name(), joint.letter()));
+        sets.push(named.collect());
     }
     sets
 }
