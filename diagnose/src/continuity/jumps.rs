@@ -4,6 +4,7 @@
 use super::steps::Steps;
 use super::{Position, Remark, Stamps, few};
 use crate::align::Fault;
+use crate::diagnose::words::rounded;
 use crate::filter::ends;
 use crate::rules::{LONGEST_DROPOUT, WRAP_NEAR, WRAP_RANGE};
 use core::f64::consts::TAU;
@@ -157,7 +158,9 @@ pub fn check(stamps: Stamps<'_>, own: &Position) -> Result<Option<Remark>, Fault
     };
     let usual = steps.expected(j).0;
     let jump = format!(
-        "it jumps by {by:.4e} {unit}{counts} within one sample, where its steps around are {usual:.1e} {unit}"
+        "it jumps by {} {unit}{counts} within one sample, where its steps around are {} {unit}",
+        rounded(*by),
+        rounded(usual)
     );
     if others == 0 && by.abs() <= own.slip {
         return Ok(Some(Remark {

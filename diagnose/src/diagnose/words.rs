@@ -98,7 +98,7 @@ pub(crate) fn summary(
 }
 
 /// A number with three significant digits, in powers of ten only where it is very large or small.
-fn rounded(value: f64) -> String {
+pub(crate) fn rounded(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }

@@ -159,6 +159,21 @@ fn times(errors: BeforeAfter) -> String {
     }
 }
 
+/// The least probability of a name; of suspicions alone the greatest.
+fn how_sure(report: &Report) -> Option<(f64, &'static str)> {
+    let [named, suspected] = report.by_status();
+    let remark = match (named.len(), suspected.len()) {
+        (1, _) => "that the name is right",
+        (0, 1) => "that the suspicion is right",
+        (0, _) => "of the likeliest suspicion",
+        _ => "of the least sure name",
+    };
+    let of_names = named.iter().map(|own| own.probability);
+    let others = suspected.iter().map(|own| own.probability);
+    let sure = of_names.reduce(f64::min);
+    Some((sure.or_else(|| others.reduce(f64::max))?, remark))
+}
+
 fn cards(report: &Report) -> Vec<[String; 3]> {
     let mut cards = Vec::new();
     let mut card =
@@ -191,13 +206,8 @@ fn cards(report: &Report) -> Vec<[String; 3]> {
             "1 is noise alone".to_owned(),
         );
     }
-    let sure = report.effects.iter().map(|effect| effect.probability);
-    if let Some(least) = sure.reduce(f64::min) {
-        let remark = match report.effects.len() {
-            1 => "that the name is right",
-            _ => "of the least sure name",
-        };
-        card("How sure", probability(least), remark.to_owned());
+    if let Some((sure, of)) = how_sure(report) {
+        card("How sure", probability(sure), of.to_owned());
     }
     cards
 }

@@ -16,9 +16,11 @@ pub fn body(report: &Report, if_off: Option<Markup>) -> Option<Markup> {
         .iter()
         .map(Vec::as_slice)
         .chain(std::iter::repeat(none));
+    let mut effects: Vec<(&EffectReport, &[String])> = report.effects.iter().zip(rivals).collect();
+    effects.sort_by_key(|(own, _)| own.status != "named");
     Some(html! {
         @if report.effects.is_empty() { p { "No effect is named." } }
-        @for (effect, rivals) in report.effects.iter().zip(rivals) { (one(effect, rivals)) }
+        @for (effect, rivals) in effects { (one(effect, rivals)) }
         @if let Some(if_off) = if_off { details #what-if { summary { "What if a name is switched off?" } (if_off) } }
         (unknown(report))
         (stages(report))

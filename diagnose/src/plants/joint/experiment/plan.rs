@@ -62,6 +62,9 @@ fn plan(run: &JointRun, (change, words): &(Change, &str), current_a: Option<f64>
     let (what, unit) = (drive_word(run), run.driven_by());
     let held = match current_a {
         Some(0.0) => format!(", without {what}"),
+        Some(current_a) if unit == Dimension::NUMBER => {
+            format!(", with the {what} held at {current_a:.2}")
+        }
         Some(current_a) => format!(", with the {what} held at {current_a:.2} {unit}"),
         None => String::new(),
     };
