@@ -244,7 +244,6 @@ pub fn shapes(
         | Shapes::Pitch
         | Shapes::Gap
         | Shapes::OfTravel { .. }
-        | Shapes::OfLoad { .. }
         | Shapes::Stop
         | Shapes::Resonance
         | Shapes::BristleCurve => vec![vec![]],

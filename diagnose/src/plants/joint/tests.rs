@@ -317,3 +317,44 @@ fn a_servo_s_effort_is_no_witness_of_repeated_samples() {
     let run = align(&seen).unwrap();
     assert!(run.remarks.is_empty(), "{:?}", run.remarks);
 }
+
+#[test]
+fn cogging_with_two_periods_is_a_ripple_with_each_of_them() {
+    let cogs: Laws = &[
+        (Mechanism::Ripple, &[0.91, -0.67, 0.11]),
+        (Mechanism::Ripple, &[0.37, 0.52, 0.043]),
+    ];
+    for diagnosis in both(cogs) {
+        assert_eq!(named(&diagnosis), ["ripple", "ripple"]);
+        let effects = diagnosis.report.effects.iter();
+        let mut periods: Vec<f64> = effects.map(|own| own.parameters["period"].value).collect();
+        periods.sort_by(f64::total_cmp);
+        for (found, hidden) in periods.iter().zip([0.043, 0.11]) {
+            assert!((found / hidden - 1.0).abs() < 2e-3, "{periods:?}");
+        }
+        assert_eq!(diagnosis.report.verdict, Verdict::Explained);
+    }
+}
+
+/// An axis that a bristle holds moves little of what its inertia alone would: that is no wrong
+/// channel.
+#[test]
+fn a_nominal_model_that_explains_nothing_is_no_fault_where_a_cause_explains_it() {
+    let free = rig(
+        "axis",
+        "[parameters]\ninertia = { value = 1.37, unit = \"kg\", status = \"known\" }\n\
+         command_gain = { value = 1.0, unit = \"N/N\" }\n",
+    );
+    let bristle: Laws = &[(Mechanism::Presliding, &[12.3, 0.31])];
+    let exact = exact_axis(bristle, 15_300, true);
+    let found = diagnose(
+        &free,
+        &[&recording(&free, &exact)],
+        None,
+        &Options::default(),
+    );
+    let left = found.report.floor.as_ref().unwrap().measured_before;
+    let effort = exact.effort.iter().map(|e| e * e).sum::<f64>() / exact.effort.len() as f64;
+    assert!(left > effort.sqrt(), "{left} of {effort}");
+    assert_eq!(named(&found), ["presliding"], "{}", found.report.summary);
+}

@@ -73,13 +73,16 @@ pub(super) fn found_in(
     described: usize,
     selection: &Selection,
 ) -> Vec<RigEffect> {
+    let mut left: Vec<&RigEffect> = effects.iter().skip(described).collect();
     let names = selection.found.iter();
     let own = names.filter_map(|name| {
         let onset_s = name.term.onset_s;
         let is_own = |own: &&RigEffect| {
             own.mechanism == name.term.cause.mechanism && own.onset.map(|o| o.value) == onset_s
         };
-        effects.iter().skip(described).find(is_own).cloned()
+        // One that is found twice, with two periods, is listed twice.
+        let place = left.iter().position(is_own)?;
+        Some(left.remove(place).clone())
     });
     own.collect()
 }
