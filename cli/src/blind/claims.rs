@@ -157,9 +157,10 @@ fn onset_near(error_s: Option<f64>) -> (usize, usize) {
     error_s.map_or((0, 0), |error_s| (usize::from(error_s <= ONSET_S), 1))
 }
 
+/// Cogging with two periods is in the library since it holds several: it is right if it is named.
 fn flagged_and_not_named(tried: &Tried) -> (usize, usize) {
     let refused = tried.score.flagged && tried.named().is_empty();
-    tried.of(&[Stratum::NotInLibrary], refused)
+    tried.of(&[Stratum::NotInLibrary], refused || tried.score.exact)
 }
 
 impl Tried {

@@ -70,10 +70,20 @@ pub fn trace(seen: Signals, beside: &[(&str, Vec<f64>)]) -> Trace {
 /// A recording of an axis without sensor noise. The drive is held between samples if `held`, smooth
 /// otherwise.
 pub fn exact_axis(laws: Laws, count: usize, held: bool) -> JointRun {
+    exact_axis_with(laws, Transmission::default(), count, held)
+}
+
+/// The same with a transmission.
+pub fn exact_axis_with(
+    laws: Laws,
+    transmission: Transmission,
+    count: usize,
+    held: bool,
+) -> JointRun {
     let axis = Axis {
         inertia: INERTIA,
         laws: laws.iter().map(|(m, p)| law(*m, p).unwrap()).collect(),
-        transmission: Transmission::default(),
+        transmission,
     };
     let mut state = axis.state(0.0, 0.013, 0.0);
     let (mut motion, mut effort) = (Vec::new(), Vec::new());

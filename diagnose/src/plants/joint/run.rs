@@ -6,6 +6,7 @@ use super::joined::over_parts;
 use super::servo::Servoed;
 use super::{columns, shapes};
 use crate::align::band_hz;
+use crate::candidates::standard_shapes;
 use crate::cause::{Cause, Place};
 use crate::continuity::Remark;
 use crate::doubt::{greatest_change, jumps_late, turning};
@@ -24,7 +25,7 @@ use crate::unknown::{Variable, variables};
 use crate::weak::{Windows, is_recorded, untold};
 use rigproof_model::brake::Characteristic;
 use rigproof_model::effects::facts::Shapes;
-use rigproof_model::effects::{Drive, Form, Instant, OfSensor, facts, form};
+use rigproof_model::effects::{Drive, Form, Instant, OfJoint, OfSensor, facts, form};
 use rigproof_spec::effect::{Mechanism, Motion};
 use rigproof_spec::tables::{BrakeTable, GREATEST_CURRENT_A};
 use rigproof_spec::units::Dimension;
@@ -419,6 +420,16 @@ impl Run for JointRun {
                 coefficients.iter().map(|c| -c).collect()
             }
             _ => coefficients.to_vec(),
+        }
+    }
+
+    /// A load that is not recorded but computed, from a servo's goal or by a simulation, tells no
+    /// exponent of the friction under it: that would take what else is left.
+    fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
+        let is_load = matches!(form(cause.mechanism), Some(Form::Joint(OfJoint::Load)));
+        match is_load && (self.plant == PlantKind::Bench || self.servo.is_some()) {
+            true => vec![Vec::new()],
+            false => standard_shapes(self, cause, windows, residual),
         }
     }
 

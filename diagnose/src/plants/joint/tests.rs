@@ -3,11 +3,12 @@
 
 use super::align::align;
 use super::recorded::{
-    EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_bench, signals, trace,
+    EFFORT_NOISE, Laws, NOMINAL, QUANTUM, exact_axis, exact_axis_with, exact_bench, signals, trace,
 };
 use super::run::JointRun;
 use crate::report::Verdict;
 use crate::{Diagnosis, Options, diagnose};
+use rigproof_model::axis::Transmission;
 use rigproof_spec::effect::Mechanism;
 use rigproof_trace::rig::{Recording, Rig};
 use std::path::Path;
@@ -333,6 +334,21 @@ fn cogging_with_two_periods_is_a_ripple_with_each_of_them() {
             assert!((found / hidden - 1.0).abs() < 2e-3, "{periods:?}");
         }
         assert_eq!(diagnosis.report.verdict, Verdict::Explained);
+    }
+}
+
+#[test]
+fn friction_by_the_square_of_the_load_is_named_with_its_exponent() {
+    let mut transmission = Transmission::default();
+    transmission.add_friction(&[0.021, 2.0]);
+    let rig = axis();
+    let exact = exact_axis_with(NOMINAL, transmission, 15_300, true);
+    let found = diagnose(&rig, &[&recording(&rig, &exact)], None, &Options::default());
+    assert_eq!(named(&found), ["load_friction"], "{}", found.report.summary);
+    let numbers = &found.report.effects[0].parameters;
+    for (name, hidden) in [("share", 0.021), ("exponent", 2.0)] {
+        let value = numbers[name].value;
+        assert!((value / hidden - 1.0).abs() < 0.02, "{name} {value}");
     }
 }
 
