@@ -14,11 +14,11 @@ use crate::rules::{
     BENDS_JOINT, BRISTLE_EXPONENTS, DELAYS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
     FASTEST_RESONANCE, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
     LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED, LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES,
-    LIMITS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND, MOST_CYCLES, MOST_DELAY_S,
-    MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS, PEAK_EXPONENTS_JOINT,
-    PEAK_SPEEDS, PLAYED_SHARES, RESONANCE_DAMPINGS, RESONANCE_STEPS, RESONANCES, RISE_TIMES_S,
-    ROUND_LIMIT_SHARES, SHARPNESSES, SHIFTS_JOINT, SLOWEST_PEAK, SLOWEST_PEAK_FLOORS,
-    SLOWEST_RESONANCE, STOP_SHARES,
+    LIMITS, LOAD_EXPONENTS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND, MOST_CYCLES,
+    MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
+    PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PLAYED_SHARES, RESONANCE_DAMPINGS, RESONANCE_STEPS,
+    RESONANCES, RISE_TIMES_S, ROUND_LIMIT_SHARES, SHARPNESSES, SHIFTS_JOINT, SLOWEST_PEAK,
+    SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, STOP_SHARES,
 };
 use crate::weak::Windows;
 use periods::{all_periods, pitches};
@@ -182,6 +182,7 @@ pub fn standard_shapes<R: Run + ?Sized>(
             middle(run.motion(cause.at)),
         ),
         Shapes::Stop => stops(run.motion(cause.at)),
+        Shapes::OfLoad { low, high, count } => by_load(&geometric(low, high, count), run),
         Shapes::Resonance => resonances(step_s),
         Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
@@ -316,6 +317,16 @@ fn limits(greatest: f64, [lowest, highest]: [f64; 2], count: usize) -> Vec<Vec<f
         .flat_map(|limit| SHARPNESSES.map(|sharpness| vec![limit, sharpness]));
     let sharp = sharp.into_iter().map(|limit| vec![limit]);
     sharp.chain(bent).collect()
+}
+
+/// Friction by the load, and by powers of it that rub as much at the greatest load.
+fn by_load<R: Run + ?Sized>(shares: &[f64], run: &R) -> Vec<Vec<f64>> {
+    let greatest = greatest(&run.effort());
+    let plain = shares.iter().map(|share| vec![*share]);
+    let by_power = shares.iter().flat_map(|share| {
+        LOAD_EXPONENTS.map(|own| vec![share * libm::pow(greatest, 1.0 - own), own])
+    });
+    plain.chain(by_power).collect()
 }
 
 /// Trial rates of the effort: those that reach the greatest command within a time.

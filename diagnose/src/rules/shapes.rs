@@ -97,6 +97,8 @@ rules! {
     MOST_A_TURN: u32 = 36, "periods", DRIVEN;
     /// Axis and bench: exponents of the presliding curve.
     BRISTLE_EXPONENTS: [f64; 3] = [0.5, 1.5, 2.5], "1", DRIVEN;
+    /// Axis: exponents of a friction by a power of the load, of rolling balls (Hertz) and of the gears of servos (Duclusaud et al. 2024).
+    LOAD_EXPONENTS: [f64; 2] = [4.0 / 3.0, 2.0], "1", REASON;
     /// Five-bar: a change of an arm's length for which the columns are linear.
     SMALL_LENGTH_M: f64 = 0.0005, "m", REASON;
     /// Five-bar: the nearest anchor of a spring that is tried, from the middle of the tip's motion, as a share of its travel; the farthest is two arms away.

@@ -7,17 +7,17 @@ use rigproof_spec::effect::Mechanism;
 pub(super) const LOAD_FRICTION: Entry = Entry {
     mechanism: Mechanism::LoadFriction,
     form: Form::Joint(OfJoint::Load),
-    linear: 1,
+    linear: 0,
     passive: true,
     refuted_by: "the same friction whether the joint drives hard or coasts",
     equation: "share·|e|·sgn(q̇), or share·|e/(1 N·m)|^exponent·(1 N·m)·sgn(q̇), e the effort at the joint",
     facts: Facts {
         in_sets: true,
         usual: Usual::Seldom,
-        shapes: Shapes::Optional {
-            low: 1.2,
-            high: 2.5,
-            count: 3,
+        shapes: Shapes::OfLoad {
+            low: 0.03,
+            high: 0.5,
+            count: 7,
         },
         at_arm: true,
         ..Facts::of(

@@ -252,6 +252,16 @@ pub enum Shapes {
     EffortRate,
     /// Anchors in the plane, around where the tip moves.
     Anchor,
+    /// A geometric progression of shares of the load at the greatest effort, of the load and of its
+    /// powers.
+    OfLoad {
+        /// The least.
+        low: f64,
+        /// The greatest.
+        high: f64,
+        /// Their number.
+        count: usize,
+    },
     /// Widths of a gap, as shares of the travel.
     Gap,
     /// A geometric progression in shares of the travel, about zero and about the middle of the

@@ -51,7 +51,7 @@ impl ChainRun {
                 let stiffness = place.described(Mechanism::TransmissionStiffness);
                 vec![self.at_place(joint, &vec![-stiffness; self.len()])]
             }
-            Form::Joint(OfJoint::Load) => vec![self.by_load(joint, motion, shape)],
+            Form::Joint(OfJoint::Load) => return Some(self.by_load(joint, motion, shape)),
             // An effort recorded with a delay lacks the delay times its rate. Averaged over a
             // window, the rate is no noisier than the effort itself.
             Form::Drive(Drive::Skew) => {
@@ -72,10 +72,13 @@ impl ChainRun {
         Some(Columns::Free(signals))
     }
 
-    /// Friction by the load, per unit of its share. The load is what the described bodies take,
-    /// without friction that is recorded or described.
-    fn by_load(&self, joint: usize, motion: &[Instant], exponent: &[f64]) -> Vec<f64> {
-        let numbers = [&[1.0], exponent].concat();
+    /// Friction by the load, per unit of its share where no numbers are given. The load is what the
+    /// described bodies take, without friction that is recorded or described.
+    fn by_load(&self, joint: usize, motion: &[Instant], numbers: &[f64]) -> Columns {
+        let of = |effort: f64| match numbers {
+            [] => effort.abs(),
+            numbers => load_friction(effort, numbers),
+        };
         let described = |mechanism| {
             let place = self.places.get(joint);
             place.map_or(0.0, |own| own.described(mechanism))
@@ -84,8 +87,13 @@ impl ChainRun {
         let known = self.stretch(&self.known, joint).iter().zip(motion);
         let rubs = known.map(|(e, now)| {
             let load = e - dry * now.sense - viscous * now.speed;
-            load_friction(load, &numbers) * now.sense
+            of(load) * now.sense
         });
-        self.at_place(joint, &rubs.collect::<Vec<_>>())
+        let rubs: Vec<f64> = rubs.collect();
+        let rubs = self.at_place(joint, &rubs);
+        match numbers {
+            [] => Columns::Free(vec![rubs]),
+            _ => Columns::Fixed(rubs),
+        }
     }
 }

@@ -244,6 +244,7 @@ pub fn shapes(
         | Shapes::Pitch
         | Shapes::Gap
         | Shapes::OfTravel { .. }
+        | Shapes::OfLoad { .. }
         | Shapes::Stop
         | Shapes::Resonance
         | Shapes::BristleCurve => vec![vec![]],

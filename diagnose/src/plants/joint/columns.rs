@@ -192,12 +192,10 @@ fn known_effort(run: &JointRun) -> Vec<f64> {
     known
 }
 
-/// Friction by the load of an axis, which is its drive's effort, friction included, per unit of its
-/// share.
-fn under_effort(run: &JointRun, exponent: &[f64]) -> Vec<f64> {
-    let numbers = [&[1.0], exponent].concat();
+/// Friction by a power of the load of an axis, which is its drive's effort, friction included.
+fn under_effort(run: &JointRun, numbers: &[f64]) -> Vec<f64> {
     let loads = run.effort.iter().zip(&run.motion);
-    let signal = loads.map(|(load, now)| load_friction(*load, &numbers) * now.sense);
+    let signal = loads.map(|(load, now)| load_friction(*load, numbers) * now.sense);
     acting_effort(run, &signal.collect::<Vec<f64>>())
 }
 
@@ -218,13 +216,28 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
     match (run.plant, form) {
         (PlantKind::Axis, _) | (_, Form::Joint(OfJoint::Fade)) => {}
         (_, Form::Joint(OfJoint::Load)) => {
-            let signal = under_load(run, &[&[1.0], shape].concat())?;
-            return Some(Columns::Free(vec![seen(run, signal)]));
+            let signal = under_load(run, shape)?;
+            return Some(Columns::Fixed(seen(run, signal)));
         }
         _ => return None,
     }
     match form {
-        Form::Joint(OfJoint::Load) => free(under_effort(run, shape)),
+        Form::Joint(OfJoint::Load) => {
+            if shape.len() > 1 {
+                return Some(Columns::Fixed(under_effort(run, shape)));
+            }
+            let share = *shape.first()?;
+            let mut effort = described(run, false);
+            add(&mut effort, &acceleration(run), inertia);
+            let loads = effort.iter().zip(&run.motion);
+            // Friction in proportion to the load depends on the load that includes it: e = rest +
+            // share·|e|·sgn(q̇).
+            let signal = loads.map(|(rest, now)| {
+                let along = rest.signum() * now.sense;
+                share * rest.abs() / (1.0 - share * along) * now.sense
+            });
+            Some(Columns::Fixed(seen(run, signal.collect())))
+        }
         Form::Joint(OfJoint::Fade) => {
             let signals = [0, 1].map(|rate| {
                 let friction = faded_by_time(run, rate);

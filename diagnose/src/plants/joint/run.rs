@@ -426,11 +426,12 @@ impl Run for JointRun {
     /// A load that is not recorded but computed, from a servo's goal or by a simulation, tells no
     /// exponent of the friction under it: that would take what else is left.
     fn shapes(&self, cause: Cause, windows: &Windows, residual: &[f64]) -> Vec<Vec<f64>> {
+        let mut shapes = standard_shapes(self, cause, windows, residual);
         let is_load = matches!(form(cause.mechanism), Some(Form::Joint(OfJoint::Load)));
-        match is_load && (self.plant == PlantKind::Bench || self.servo.is_some()) {
-            true => vec![Vec::new()],
-            false => standard_shapes(self, cause, windows, residual),
+        if is_load && (self.plant == PlantKind::Bench || self.servo.is_some()) {
+            shapes.retain(|own| own.len() == 1);
         }
+        shapes
     }
 
     fn shape_over(&self, cause: Cause, shape: &[f64], coefficients: &[f64]) -> Option<Vec<f64>> {
