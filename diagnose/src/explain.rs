@@ -55,6 +55,7 @@ impl Explanations {
     ///
     /// An explanation that holds it at another place counts too where no motion tells the places
     /// apart.
+    ///
     /// A cause that the leading one holds several times, with several periods, counts where it
     /// stands at least as many `times`.
     pub fn probability(&self, cause: Cause, times: usize) -> f64 {
@@ -138,8 +139,8 @@ impl Explanation {
 
     /// How many of its terms are forms of a cause.
     fn forms(&self, cause: Cause) -> usize {
-        let same = |own: Cause| own.at == cause.at && are_forms(own.mechanism, cause.mechanism);
-        self.terms.iter().filter(|term| same(term.cause)).count()
+        let forms = self.terms.iter().filter(|term| is_form_of(term, cause));
+        forms.count()
     }
 }
 
@@ -160,6 +161,11 @@ fn are_forms(a: Mechanism, b: Mechanism) -> bool {
         )
     };
     kind(a) == kind(b) || is_bristle(a) && is_bristle(b)
+}
+
+/// Whether a term is a form of a cause at its place.
+fn is_form_of(own: &Term, cause: Cause) -> bool {
+    own.cause.at == cause.at && are_forms(own.cause.mechanism, cause.mechanism)
 }
 
 /// The word for a cause of this probability.

@@ -1,8 +1,8 @@
 //! This file searches among sets of terms with a beam: several explanations stay alive at once, so
 //! that the order in which terms enter decides nothing.
 
-use super::are_forms;
 use super::fitted::{Fitted, Folds};
+use super::is_form_of;
 use super::refine::refined;
 use super::score::{Judge, is_impossible};
 use crate::candidates::is_periodic;
@@ -169,10 +169,6 @@ pub fn joins(problem: &Problem, terms: &[Term], own: &Kept) -> bool {
     let is_apart = |other: &Term| (cycles(&other.shape) - cycles(own.shape())).abs() > PEAKS_APART;
     let mut forms = terms.iter().filter(|own| is_form_of(own, cause));
     forms.all(|own| own.cause == cause && is_periodic(cause) && is_apart(own))
-}
-
-fn is_form_of(own: &Term, cause: Cause) -> bool {
-    own.cause.at == cause.at && are_forms(own.cause.mechanism, cause.mechanism)
 }
 
 /// The sorted names of the causes: the key of a set.

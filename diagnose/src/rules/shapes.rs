@@ -15,7 +15,7 @@ rules! {
     SPACING: f64 = 0.35, "cycles", AXIS_BENCH;
     /// Peaks in the residual's spectrum over position that are tried.
     PEAKS: usize = 4, "peaks", AXIS_BENCH;
-    /// Least distance between these peaks.
+    /// Least distance between these peaks, and between two periods of a cause at one place.
     PEAKS_APART: f64 = 2.0, "cycles", AXIS_BENCH;
     /// Smallest Stribeck speed that is tried, in speeds below which the direction of motion is noise.
     SLOWEST_PEAK_FLOORS: f64 = 2.0, "floors", AXIS_BENCH;

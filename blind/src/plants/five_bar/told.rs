@@ -35,15 +35,15 @@ pub fn sets(setup: &Setup, effect: &Effect) -> Vec<Vec<String>> {
     if setup.layout == Layout::ThreeBrake && effect.at == At::Joint(Joint::E) && of_joint {
         sets.push(vec![format!("{} at C", effect.name())]);
     }
-    // What varies about a mean is the mean and what varies about 0.
-    let both = match effect.form {
+    // What varies about a mean is the mean and what varies about 0; two periods are one name.
+    let parts = match effect.form {
         Form::OneSided => Some(vec![Mechanism::Presliding, Mechanism::ConstantBias]),
         Form::Uneven => Some(vec![Mechanism::DryOffset, Mechanism::UnevenFriction]),
         Form::TwoRipples => Some(vec![Mechanism::Ripple]),
         _ => None,
     };
-    if let (Some(both), At::Joint(joint)) = (both, effect.at) {
-        let named = both.iter();
+    if let (Some(parts), At::Joint(joint)) = (parts, effect.at) {
+        let named = parts.iter();
         let named = named.map(|own| format!("{} at {}", own.name(), joint.letter()));
         sets.push(named.collect());
     }

@@ -59,13 +59,14 @@ pub fn plans(run: &JointRun) -> Vec<Plan> {
 }
 
 fn plan(run: &JointRun, (change, words): &(Change, &str), current_a: Option<f64>) -> Plan {
-    let (what, unit) = (drive_word(run), run.driven_by());
+    let what = drive_word(run);
+    let unit = match run.driven_by() {
+        Dimension::NUMBER => String::new(),
+        own => format!(" {own}"),
+    };
     let held = match current_a {
         Some(0.0) => format!(", without {what}"),
-        Some(current_a) if unit == Dimension::NUMBER => {
-            format!(", with the {what} held at {current_a:.2}")
-        }
-        Some(current_a) => format!(", with the {what} held at {current_a:.2} {unit}"),
+        Some(current_a) => format!(", with the {what} held at {current_a:.2}{unit}"),
         None => String::new(),
     };
     Plan {
