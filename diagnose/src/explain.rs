@@ -415,6 +415,18 @@ fn polished(problem: &Problem, nominal: &[Term], terms: &[Term]) -> Vec<Term> {
     all
 }
 
+/// The greatest share of the squared residual of one output that a term removes.
+fn most_removed(problem: &Problem, without: &[f64], with: &[f64]) -> f64 {
+    let outputs = problem.windows.outputs;
+    let left = |residual: &[f64], output: usize| -> f64 {
+        let rows = residual.iter().zip(&problem.windows.usable);
+        let own = rows.skip(output).step_by(outputs).filter(|(_, usable)| **usable);
+        own.map(|(row, _)| row * row).sum()
+    };
+    let removed = (0..outputs).map(|k| 1.0 - left(with, k) / left(without, k).max(1e-300));
+    removed.fold(0.0, f64::max)
+}
+
 /// The leading explanation as a `Selection`.
 fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) -> Selection {
     let blocks = Blocks::new(problem);
@@ -435,10 +447,14 @@ fn selected(problem: &Problem, nominal: Vec<Term>, explanations: &Explanations) 
             let before = same.filter(|own| own.cause == term.cause).count();
             let even = vec![1.0; without.block_loss.len()];
             let (gain, z) = paired(&without.block_loss, &after.block_loss, &even);
+            let share = match problem.rules.many {
+                true => most_removed(problem, &without.residual, &after.residual),
+                false => gain / without.left_out().max(1e-300),
+            };
             Found {
                 term: term.clone(),
                 z,
-                share: gain / without.left_out().max(1e-300),
+                share,
                 probability: explanations.probability(term.cause, before + 1),
             }
         })

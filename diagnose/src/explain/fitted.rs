@@ -18,7 +18,9 @@ pub struct Folds {
     places: Vec<usize>,
     /// First and end position of each block among the usable rows.
     ranges: Vec<(usize, usize)>,
-    /// The number of usable rows of each block.
+    /// The same of each part of a block whose rows have one noise.
+    cells: Vec<(usize, usize)>,
+    /// The number of rows of each of these parts.
     pub counts: Vec<f64>,
     /// The driving effort of every row.
     driving: Arc<Vec<f64>>,
@@ -29,26 +31,36 @@ pub struct Folds {
 }
 
 impl Folds {
-    /// The blocks with more than `FEWEST_ROWS` usable rows.
+    /// The blocks with more than `FEWEST_ROWS` usable rows. Where many places may lack something,
+    /// what is left at one says nothing of another: each output of a block is judged by itself.
     pub fn of(problem: &Problem) -> Folds {
         let usable = &problem.windows.usable;
+        let outputs = match problem.rules.many {
+            true => problem.windows.outputs,
+            false => 1,
+        };
         let of_block = |&(first, end): &(usize, usize)| -> Vec<usize> {
             let is_usable = |row: &usize| usable.get(*row) == Some(&true);
-            (first..end).filter(is_usable).collect()
+            let mut rows: Vec<usize> = (first..end).filter(is_usable).collect();
+            rows.sort_by_key(|row| row % outputs);
+            rows
         };
         let blocks = Blocks::new(problem).ranges;
         let blocks = blocks.iter().map(of_block);
         let mut rows: Vec<usize> = Vec::new();
-        let mut ranges = Vec::new();
+        let (mut ranges, mut cells) = (Vec::new(), Vec::new());
         let fewest = match problem.windows.are_alone() {
             true => 0,
             false => FEWEST_ROWS,
         };
         for block in blocks.filter(|block| block.len() > fewest) {
             ranges.push((rows.len(), rows.len() + block.len()));
-            rows.extend(block);
+            for cell in block.chunk_by(|a, b| a % outputs == b % outputs) {
+                cells.push((rows.len(), rows.len() + cell.len()));
+                rows.extend(cell);
+            }
         }
-        let counts = ranges.iter().map(|(first, end)| (end - first) as f64);
+        let counts = cells.iter().map(|(first, end)| (end - first) as f64);
         let before = usable.iter().scan(0, |count, own| {
             let place = *count;
             *count += usize::from(*own);
@@ -65,6 +77,7 @@ impl Folds {
             places: places.collect(),
             rows,
             ranges,
+            cells,
         }
     }
 
@@ -89,20 +102,34 @@ impl Folds {
 
     /// The mean number of usable rows of a block.
     pub fn mean_rows(&self) -> f64 {
-        self.rows() / self.counts.len().max(1) as f64
+        self.rows() / self.ranges.len().max(1) as f64
     }
 
     /// The median over blocks of a column's root mean square.
     pub fn typical(&self, column: &[f64]) -> f64 {
         let own = self.usable(column);
         let energies = self.dots(&own, &own).into_iter();
-        let mut squares: Vec<f64> = energies.zip(&self.counts).map(|(e, n)| e / n).collect();
+        let lengths = self.ranges.iter().map(|(first, end)| (end - first) as f64);
+        let mut squares: Vec<f64> = energies.zip(lengths).map(|(e, n)| e / n).collect();
         squares.sort_by(f64::total_cmp);
         squares
             .get(squares.len() / 2)
             .copied()
             .unwrap_or(0.0)
             .sqrt()
+    }
+
+    /// Whether a block has parts with noise of their own.
+    fn is_split(&self) -> bool {
+        self.cells.len() > self.ranges.len()
+    }
+
+    /// The squares of the rows of a block, summed over each of its parts.
+    fn energies(&self, rows: &[f64], (first, end): (usize, usize)) -> Vec<f64> {
+        let own = self.cells.iter();
+        let own = own.filter(|cell| first <= cell.0 && cell.1 <= end);
+        let own = own.map(|cell| rows.get(cell.0 - first..cell.1 - first).unwrap_or_default());
+        own.map(|part| dot(part, part)).collect()
     }
 
     fn dots(&self, a: &[f64], b: &[f64]) -> Vec<f64> {
@@ -176,7 +203,7 @@ impl Fitted {
             let white = folds.usable(&column.white);
             fitted.take_in(folds, column.ridge(folds.rows_a_sample), white);
         }
-        fitted.solve();
+        fitted.solve(folds);
         fitted
     }
 
@@ -225,13 +252,13 @@ impl Fitted {
             fitted.take_in(folds, column.ridge(folds.rows_a_sample), white);
         }
         fitted.terms.push(term);
-        fitted.solve();
+        fitted.solve(folds);
         fitted
     }
 
     /// The fit without one of its terms; `None` for a term that acts with a fixed effort, and beside
     /// gains of a force sensor.
-    pub fn without(&self, index: usize) -> Option<Fitted> {
+    pub fn without(&self, folds: &Folds, index: usize) -> Option<Fitted> {
         let term = self.terms.get(index)?;
         if term.fixed.is_some() || !self.gains.is_empty() {
             return None;
@@ -248,7 +275,7 @@ impl Fitted {
             part.gram = gram.remove_columns(first, count);
             part.moment = core::mem::take(&mut part.moment).remove_rows(first, count);
         }
-        fewer.solve();
+        fewer.solve(folds);
         Some(fewer)
     }
 
@@ -319,6 +346,15 @@ impl Fitted {
         dot(&acting, &acting) / folds.driving_energy.max(1e-300)
     }
 
+    /// The residual of some rows with these coefficients.
+    fn left_of(&self, (first, end): (usize, usize), coefficients: &DVector<f64>) -> Vec<f64> {
+        let mut left = self.target.get(first..end).unwrap_or_default().to_vec();
+        for (column, times) in self.columns.iter().zip(coefficients.iter()) {
+            add(&mut left, column.get(first..end).unwrap_or_default(), -times);
+        }
+        left
+    }
+
     fn take_in(&mut self, folds: &Folds, ridge: f64, column: Arc<[f64]>) {
         self.ridge.push(ridge);
         let size = self.columns.len();
@@ -363,7 +399,7 @@ impl Fitted {
         }
     }
 
-    fn solve(&mut self) {
+    fn solve(&mut self, folds: &Folds) {
         let size = self.columns.len();
         let mut sum = Part {
             gram: DMatrix::from_diagonal(&DVector::from_column_slice(&self.ridge)),
@@ -375,16 +411,26 @@ impl Fitted {
             sum.moment += &part.moment;
         }
         let scale = sum.gram.diagonal().map(|d| 1.0 / d.sqrt().max(1e-150));
+        let others = |part: &Part| {
+            let (gram, moment) = (&sum.gram - &part.gram, &sum.moment - &part.moment);
+            solution(&gram, &moment, &scale)
+        };
         let left = |part: &Part| {
-            let solution = solution(
-                &(&sum.gram - &part.gram),
-                &(&sum.moment - &part.moment),
-                &scale,
-            );
+            let solution = others(part);
             let quadratic = (&part.gram * &solution).dot(&solution);
             (part.square - 2.0 * part.moment.dot(&solution) + quadratic).max(0.0)
         };
-        self.losses = self.parts.iter().map(left).collect();
+        self.losses = match folds.is_split() {
+            false => self.parts.iter().map(left).collect(),
+            true => {
+                let blocks = self.parts.iter().zip(&folds.ranges);
+                let each = blocks.flat_map(|(part, range)| {
+                    let left = self.left_of(*range, &others(part));
+                    folds.energies(&left, *range)
+                });
+                each.collect()
+            }
+        };
         let all = solution(&sum.gram, &sum.moment, &scale);
         self.coefficients = all.iter().copied().collect();
     }

@@ -6,7 +6,7 @@
 use super::beam::may_join;
 use super::discrepancy::rows_a_sample;
 use super::fitted::{Fitted, Folds};
-use super::score::{Judge, is_impossible};
+use super::score::{Judge, bends_from, is_impossible};
 use super::walk::{self, Sets, Tried};
 use super::{Explanation, Explanations, living, selected, shapes_of};
 use crate::candidates::is_plain;
@@ -65,6 +65,14 @@ fn is_link(term: &Term) -> bool {
             .any(|own| own.raw.iter().any(|x| *x != 0.0))
     };
     term.cause.mechanism == Mechanism::LinkInertia && acts()
+}
+
+/// Whether a cause may stand beside these terms. A law that bends before it slides and the plain one
+/// that it becomes do not stand at one place: one would only correct the shape of the other.
+fn may_stand(terms: &[Term], cause: Cause) -> bool {
+    let becomes = |a: Cause, b: Cause| a.at == b.at && bends_from(a.mechanism) == Some(b.mechanism);
+    let mut others = terms.iter().map(|own| own.cause);
+    may_join(terms, cause) && !others.any(|own| becomes(own, cause) || becomes(cause, own))
 }
 
 /// One search under one noise model.
@@ -144,7 +152,7 @@ impl Round {
             .par_iter()
             .zip(hopeful.par_iter())
             .map(|(term, hoped)| {
-                if !hoped || !may_join(&best.1.terms, term.cause) {
+                if !hoped || !may_stand(&best.1.terms, term.cause) {
                     return None;
                 }
                 let fitted = best.1.with(&self.folds, term);
@@ -176,7 +184,8 @@ impl Round {
     fn plainer(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
         let is_shaped = |term: &Term| {
             let family = facts(term.cause.mechanism).map(|own| own.family);
-            !term.shape.is_empty() && family == Some(Family::FrictionOfMotion)
+            let is_friction = |own| matches!(own, Family::FrictionOfMotion | Family::MemoryOfMotion);
+            !term.shape.is_empty() && family.is_some_and(is_friction)
         };
         let shaped = || best.1.terms.iter().filter(|term| is_shaped(term));
         let places = shaped().map(|term| term.cause.at);
@@ -204,7 +213,7 @@ impl Round {
     ) -> Option<(f64, Fitted)> {
         let stays_beside = |index: usize| {
             let mut others = own.terms.iter().enumerate().filter(|(k, _)| *k != index);
-            others.all(|(_, other)| may_join(core::slice::from_ref(other), term.cause))
+            others.all(|(_, other)| may_stand(core::slice::from_ref(other), term.cause))
         };
         let given = own.terms.iter().enumerate();
         let given = given.filter(|(_, own)| own.cause != term.cause && may_give_way(own));
@@ -236,7 +245,7 @@ impl Round {
     }
 
     fn without(&self, own: &Fitted, index: usize) -> Fitted {
-        own.without(index).unwrap_or_else(|| {
+        own.without(&self.folds, index).unwrap_or_else(|| {
             let mut terms = own.terms.clone();
             terms.remove(index);
             self.bare.of(&self.folds, &terms)
@@ -268,7 +277,7 @@ impl Round {
             if own.causes().any(|cause| cause == term.cause) {
                 return None;
             }
-            let joined = may_join(&own.terms, term.cause).then(|| own.with(&self.folds, term));
+            let joined = may_stand(&own.terms, term.cause).then(|| own.with(&self.folds, term));
             let joined = joined.filter(|own| !is_impossible(problem, own));
             let joined = joined.map(|own| self.score(problem, &own));
             let instead = || Some(self.with_instead(problem, own, term, |_| true)?.0);
@@ -304,7 +313,7 @@ impl Sets for Of<'_> {
     }
 
     fn with(&self, own: &Fitted, term: &Term) -> Option<Fitted> {
-        may_join(&own.terms, term.cause).then(|| own.with(&self.round.folds, term))
+        may_stand(&own.terms, term.cause).then(|| own.with(&self.round.folds, term))
     }
 
     fn without(&self, own: &Fitted, index: usize) -> Fitted {

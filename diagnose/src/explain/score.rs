@@ -87,12 +87,13 @@ pub fn prior(problem: &Problem, terms: &[Term]) -> f64 {
 /// `first` are the odds of the first one: Laplace's rule of succession, with one joint more that
 /// lacks nothing.
 fn known_from_others(problem: &Problem, cause: Cause, before: &[Term]) -> f64 {
-    if !problem.rules.many || !is_plain(cause.mechanism) {
+    let mechanism = plain(problem, cause.mechanism);
+    if !problem.rules.many || !is_plain(mechanism) {
         return 0.0;
     }
-    let same = |own: &&Term| own.cause.mechanism == cause.mechanism;
+    let same = |own: &&Term| plain(problem, own.cause.mechanism) == mechanism;
     let known = before.iter().filter(same).count();
-    let first = libm::exp(usual(cause.mechanism));
+    let first = libm::exp(usual(mechanism));
     libm::log(odds_after(known, problem.run.joints(), first) / first)
 }
 
@@ -117,7 +118,7 @@ fn odds(problem: &Problem, term: &Term) -> f64 {
     let numbers = numbers - usize::from(term.free.is_empty() && !term.shape.is_empty());
     let usual = match refines_a_stated_law(problem, term.cause) {
         true => 0.0,
-        false => usual(term.cause.mechanism),
+        false => usual(plain(problem, term.cause.mechanism)),
     };
     usual - A_NUMBER * numbers.saturating_sub(1) as f64
 }
@@ -125,18 +126,29 @@ fn odds(problem: &Problem, term: &Term) -> f64 {
 /// Whether a cause is a stated law of unknown size with a travel besides: all dry friction bends
 /// before it slides. It takes the place of the stated law, and only its further numbers cost.
 fn refines_a_stated_law(problem: &Problem, cause: Cause) -> bool {
-    let mechanism = kind(cause.mechanism);
     let linear = |own: Mechanism| entry(own).map(|entry| entry.linear);
-    let limit = facts(mechanism).and_then(|facts| facts.limit);
-    let limit = limit.filter(|limit| linear(cause.mechanism) == linear(limit.of));
+    let limit = bends_from(cause.mechanism);
+    let limit = limit.filter(|limit| linear(cause.mechanism) == linear(*limit));
     limit.is_some_and(|limit| {
-        let number = mechanism.parameters().get(limit.parameter);
-        let stated = |own: &Cause| own.mechanism == limit.of && own.at == cause.at;
-        limit.end == End::Nothing
-            && number.is_some_and(|number| number.quantity == Quantity::Travel)
-            && cause.scales == Scales::Nothing
-            && problem.open.iter().any(stated)
+        let stated = |own: &Cause| own.mechanism == limit && own.at == cause.at;
+        cause.scales == Scales::Nothing && problem.open.iter().any(stated)
     })
+}
+
+/// The law that a law with a travel becomes where the travel goes to 0: all dry friction bends before
+/// it slides.
+pub fn bends_from(mechanism: Mechanism) -> Option<Mechanism> {
+    let mechanism = kind(mechanism);
+    let limit = facts(mechanism).and_then(|facts| facts.limit)?;
+    let number = mechanism.parameters().get(limit.parameter)?;
+    let is_travel = limit.end == End::Nothing && number.quantity == Quantity::Travel;
+    is_travel.then_some(limit.of)
+}
+
+/// At an arm the plain law of a mechanism: what is asked first is whether a joint has friction.
+fn plain(problem: &Problem, mechanism: Mechanism) -> Mechanism {
+    let bent = bends_from(mechanism).filter(|_| problem.rules.many);
+    bent.unwrap_or(mechanism)
 }
 
 /// The log odds that a model leaves this mechanism out.

@@ -21,6 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
     equation: "level·w, travel·dw/dt = q̇ − |q̇|·w",
     facts: Facts {
         of_torque: true,
+        at_arm: true,
         usual: Usual::Frequent,
         turn: 2,
         has_forms: true,
