@@ -420,7 +420,10 @@ fn most_removed(problem: &Problem, without: &[f64], with: &[f64]) -> f64 {
     let outputs = problem.windows.outputs;
     let left = |residual: &[f64], output: usize| -> f64 {
         let rows = residual.iter().zip(&problem.windows.usable);
-        let own = rows.skip(output).step_by(outputs).filter(|(_, usable)| **usable);
+        let own = rows
+            .skip(output)
+            .step_by(outputs)
+            .filter(|(_, usable)| **usable);
         own.map(|(row, _)| row * row).sum()
     };
     let removed = (0..outputs).map(|k| 1.0 - left(with, k) / left(without, k).max(1e-300));

@@ -350,7 +350,11 @@ impl Fitted {
     fn left_of(&self, (first, end): (usize, usize), coefficients: &DVector<f64>) -> Vec<f64> {
         let mut left = self.target.get(first..end).unwrap_or_default().to_vec();
         for (column, times) in self.columns.iter().zip(coefficients.iter()) {
-            add(&mut left, column.get(first..end).unwrap_or_default(), -times);
+            add(
+                &mut left,
+                column.get(first..end).unwrap_or_default(),
+                -times,
+            );
         }
         left
     }

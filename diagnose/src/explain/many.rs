@@ -70,9 +70,13 @@ fn is_link(term: &Term) -> bool {
 /// Whether a cause may stand beside these terms. A law that bends before it slides and the plain one
 /// that it becomes do not stand at one place: one would only correct the shape of the other.
 fn may_stand(terms: &[Term], cause: Cause) -> bool {
-    let becomes = |a: Cause, b: Cause| a.at == b.at && bends_from(a.mechanism) == Some(b.mechanism);
     let mut others = terms.iter().map(|own| own.cause);
     may_join(terms, cause) && !others.any(|own| becomes(own, cause) || becomes(cause, own))
+}
+
+/// Whether one cause bends before it becomes the other.
+fn becomes(own: Cause, plain: Cause) -> bool {
+    own.at == plain.at && bends_from(own.mechanism) == Some(plain.mechanism)
 }
 
 /// One search under one noise model.
@@ -126,6 +130,7 @@ impl Round {
             });
             let better = match prunes {
                 true => grown
+                    .or_else(|| self.bent(problem, &best))
                     .or_else(|| self.exchanged(problem, &best))
                     .or_else(|| self.plainer(problem, &best)),
                 false => grown,
@@ -169,12 +174,28 @@ impl Round {
         Some((score, best.1.with(&self.folds, term)))
     }
 
+    /// The explanation with a law that bends before it slides instead of the plain one that it
+    /// becomes; `None` where none makes it more probable.
+    fn bent(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
+        self.replaced(problem, best, |own, term| becomes(term.cause, own.cause))
+    }
+
     /// The explanation with one term exchanged for another; `None` where none makes it more
     /// probable.
     fn exchanged(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
-        let of_each = self.tried.par_iter();
-        let of_each =
-            of_each.filter_map(|term| self.with_instead(problem, &best.1, term, |_| true));
+        self.replaced(problem, best, |_, _| true)
+    }
+
+    /// The best explanation with a term instead of one that gives way to it.
+    fn replaced(
+        &self,
+        problem: &Problem,
+        best: &(f64, Fitted),
+        gives_way: impl Fn(&Term, &Term) -> bool + Sync,
+    ) -> Option<(f64, Fitted)> {
+        let of_each = self.tried.par_iter().filter_map(|term| {
+            self.with_instead(problem, &best.1, term, |own| gives_way(own, term))
+        });
         let better = of_each.max_by(|a, b| a.0.total_cmp(&b.0));
         better.filter(|own| own.0 > best.0)
     }
@@ -184,7 +205,8 @@ impl Round {
     fn plainer(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
         let is_shaped = |term: &Term| {
             let family = facts(term.cause.mechanism).map(|own| own.family);
-            let is_friction = |own| matches!(own, Family::FrictionOfMotion | Family::MemoryOfMotion);
+            let is_friction =
+                |own| matches!(own, Family::FrictionOfMotion | Family::MemoryOfMotion);
             !term.shape.is_empty() && family.is_some_and(is_friction)
         };
         let shaped = || best.1.terms.iter().filter(|term| is_shaped(term));

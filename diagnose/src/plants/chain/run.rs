@@ -292,7 +292,7 @@ impl Run for ChainRun {
         for ((&centre, usable), &place) in rows.zip(self.equations.iter().cycle()) {
             let motion = self.motions.get(place).map_or(&[][..], Vec::as_slice);
             let part = self.places.get(place).map(|own| own.part);
-            let is_told = || untold(motion, centre, &windows.bump) <= std::env::var("AMB").ok().and_then(|s| s.parse::<f64>().ok()).unwrap_or(MOST_AMBIGUOUS);
+            let is_told = || untold(motion, centre, &windows.bump) <= MOST_AMBIGUOUS;
             *usable = *usable && (part == Some(Part::Transmission) || is_told());
         }
     }
