@@ -29,6 +29,7 @@ const ELSE: &[&[Form]] = &[
     &[Form::Spring, Form::Anchored],
     &[Form::Ripple, Form::Toothed, Form::TwoOrders],
     &[Form::LoadShare, Form::LoadSided, Form::LoadSquare],
+    &[Form::DahlPower, Form::MaxwellSlip, Form::ElastoPlastic],
 ];
 /// How often it does.
 const INSTEAD: f64 = 0.3;
@@ -99,6 +100,7 @@ fn effect(setup: &Setup, form: Form, joint: usize, draw: &mut Draw) -> Option<Ef
     let link = setup.body.joints.get(joint)?.link;
     let level = effort * draw.log_uniform(0.06, 0.4);
     let swing = setup.paths.get(joint)?.swing();
+    let yields = |draw: &mut Draw| swing * draw.log_uniform(0.002, 0.03);
     let period = |draw: &mut Draw| swing * draw.log_uniform(0.15, 1.5);
     let values = match form {
         Form::Viscous => [level / speed, 0.0, 0.0],
@@ -134,6 +136,9 @@ fn effect(setup: &Setup, form: Form, joint: usize, draw: &mut Draw) -> Option<Ef
         Form::LoadShare => [draw.uniform(0.05, 0.3), 0.0, 0.0],
         Form::LoadSided => [draw.uniform(0.05, 0.3), draw.uniform(0.02, 0.15), 0.0],
         Form::LoadSquare => [level, effort, 0.0],
+        Form::DahlPower => [level, yields(draw), draw.pick(&[0.5, 1.5, 2.0])],
+        Form::MaxwellSlip => [level, 3.0 * yields(draw), 0.0],
+        Form::ElastoPlastic => [level, yields(draw), draw.uniform(0.3, 0.8)],
         _ => [level, 0.0, 0.0],
     };
     Some(form.of(values).at(At::Arm(joint)))

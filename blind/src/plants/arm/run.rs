@@ -13,27 +13,63 @@ pub struct Run {
     pub efforts: Vec<Vec<f64>>,
 }
 
+/// Steps between two samples over which a law's memory moves.
+const STEPS: usize = 5;
+
 /// The efforts of each joint along the recording.
 pub fn run(setup: &Setup, hidden: &[Effect]) -> Run {
-    let body = changed(&setup.body, hidden);
-    let mut efforts = vec![Vec::with_capacity(setup.samples()); body.joints.len()];
-    for k in 0..setup.samples() {
-        let time_s = k as f64 / setup.rate_hz;
-        let now = shown(&body, &setup.states(time_s), hidden);
-        for (signal, effort) in efforts.iter_mut().zip(now) {
-            signal.push(effort);
-        }
-        // An effort that is recorded late is that of a time before.
-        for late in hidden.iter().filter(|own| own.form == Form::Skew) {
-            let At::Arm(joint) = late.at else { continue };
-            let then = shown(&body, &setup.states(time_s - late.first()), hidden);
-            let last = efforts.get_mut(joint).and_then(|own| own.last_mut());
-            if let (Some(last), Some(then)) = (last, then.get(joint)) {
-                *last = *then;
-            }
+    let mut efforts = late_by(setup, hidden, 0.0);
+    // An effort that is recorded late is that of a time before.
+    for late in hidden.iter().filter(|own| own.form == Form::Skew) {
+        let At::Arm(joint) = late.at else { continue };
+        let then = late_by(setup, hidden, late.first()).into_iter().nth(joint);
+        if let (Some(own), Some(then)) = (efforts.get_mut(joint), then) {
+            *own = then;
         }
     }
     Run { efforts }
+}
+
+/// The efforts of a time before.
+fn late_by(setup: &Setup, hidden: &[Effect], delay_s: f64) -> Vec<Vec<f64>> {
+    let body = changed(&setup.body, hidden);
+    let step_s = 1.0 / setup.rate_hz / STEPS as f64;
+    let mut laws: Vec<Element> = hidden.iter().map(|own| Element::new(*own)).collect();
+    let mut before = setup.states(-delay_s);
+    let mut efforts = vec![Vec::with_capacity(setup.samples()); body.joints.len()];
+    for k in 0..setup.samples() * STEPS {
+        let now = setup.states(k as f64 * step_s - delay_s);
+        for law in &mut laws {
+            let At::Arm(joint) = law.effect.at else {
+                continue;
+            };
+            if let (Some(now), Some([then, ..])) = (now.get(joint), before.get(joint)) {
+                law.advance(&instant(now, 0.0), now[0] - then, step_s);
+            }
+        }
+        if k % STEPS == 0 {
+            let shown = shown(&body, &now, &laws);
+            let signals = efforts.iter_mut().zip(shown);
+            signals.for_each(|(signal, effort)| signal.push(effort));
+        }
+        before = now;
+    }
+    efforts
+}
+
+/// Where a joint is under an effort.
+fn instant([position, speed, _]: &State, load: f64) -> Instant {
+    Instant {
+        time_s: 0.0,
+        position: *position,
+        velocity: *speed,
+        direction: match *speed {
+            0.0 => 0.0,
+            _ => speed.signum(),
+        },
+        load,
+        brake: 0.0,
+    }
 }
 
 /// The arm with its hidden masses.
@@ -54,37 +90,23 @@ fn changed(body: &Body, hidden: &[Effect]) -> Body {
 }
 
 /// What the sensors of effort show but for their noise.
-fn shown(body: &Body, states: &[State], hidden: &[Effect]) -> Vec<f64> {
+fn shown(body: &Body, states: &[State], laws: &[Element]) -> Vec<f64> {
     let rigid = efforts(body, states).into_iter();
     let each = rigid.zip(&body.joints).zip(states).enumerate();
-    each.map(
-        |(joint, ((rigid, member), [position, speed, acceleration]))| {
-            let sense = match *speed {
-                0.0 => 0.0,
-                _ => speed.signum(),
-            };
-            let at = Instant {
-                time_s: 0.0,
-                position: *position,
-                velocity: *speed,
-                direction: sense,
-                load: rigid,
-                brake: 0.0,
-            };
-            let here = || hidden.iter().filter(|own| own.at == At::Arm(joint));
-            let more = here().map(|own| match own.form {
-                Form::Rotor => own.first() * acceleration,
-                _ => {
-                    let law = Element::new(*own);
-                    law.bound(&at) * sense + law.force(&at, 0.0, 0.0)
-                }
-            });
-            let whole = rigid + member.dry * sense + member.viscous * speed + more.sum::<f64>();
-            // The true effort is so much more than what the current says.
-            let gains = here().filter(|own| own.form == Form::Gain);
-            gains.fold(whole, |effort, own| effort / (1.0 + own.first()))
-        },
-    )
+    each.map(|(joint, ((rigid, member), state))| {
+        let at = instant(state, rigid);
+        let [_, speed, acceleration] = *state;
+        let here = || laws.iter().filter(|own| own.effect.at == At::Arm(joint));
+        let more = here().map(|own| match own.effect.form {
+            Form::Rotor => own.effect.first() * acceleration,
+            _ => own.bound(&at) * at.direction + own.force(&at, 0.0, 0.0),
+        });
+        let described = member.dry * at.direction + member.viscous * speed;
+        let whole = rigid + described + more.sum::<f64>();
+        // The true effort is so much more than what the current says.
+        let gains = here().filter(|own| own.effect.form == Form::Gain);
+        gains.fold(whole, |effort, own| effort / (1.0 + own.effect.first()))
+    })
     .collect()
 }
 
