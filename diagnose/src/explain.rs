@@ -27,7 +27,8 @@ use rayon::prelude::*;
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
 use rigproof_spec::effect::Mechanism;
-use score::{Judge, prior};
+use score::{Judge, bends_from, prior};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// One explanation: a set of terms on top of the nominal model.
@@ -66,15 +67,42 @@ impl Explanations {
         self.living.iter().filter(holds).map(|own| own.weight).sum()
     }
 
+    /// The explanations led by one whose friction bends before it slides only where that is named.
+    ///
+    /// Where it is not, one with the plain law in its place leads: it is the surer name.
+    fn led_by_the_sure(mut self) -> Explanations {
+        let terms = self.living.first().map(|own| own.terms.clone());
+        for term in terms.unwrap_or_default() {
+            let plain = bends_from(term.cause.mechanism);
+            let Some(plain) = plain.filter(|_| self.probability(term.cause, 1) < NAMED) else {
+                continue;
+            };
+            let leading = self.living.first().into_iter().flat_map(|own| &own.terms);
+            let wanted = leading.map(|own| match own.cause == term.cause {
+                true => Cause {
+                    mechanism: plain,
+                    ..own.cause
+                },
+                false => own.cause,
+            });
+            let wanted: BTreeSet<Cause> = wanted.collect();
+            let has = |own: &Explanation| own.terms.iter().map(|term| term.cause).collect();
+            let plainer = self.living.iter().position(|own| wanted == has(own));
+            if let Some(place) = plainer {
+                self.living[..=place].rotate_right(1);
+            }
+        }
+        self
+    }
+
     /// The other forms of a cause that explanations hold in its place, each with its probability.
     ///
     /// They are part of the probability of the cause. Only those that reach `OFFERED` are listed.
     pub fn other_forms(&self, cause: Cause) -> Vec<(Mechanism, f64)> {
         let mut forms: Vec<(Mechanism, f64)> = Vec::new();
         for own in self.living.iter().filter(|own| own.holds(cause)) {
-            let terms = own.terms.iter().map(|term| term.cause);
-            let form = terms.filter(|own| own.at == cause.at && *own != cause);
-            for form in form.filter(|own| are_forms(own.mechanism, cause.mechanism)) {
+            let held = own.terms.iter().filter(|term| includes(term, cause));
+            for form in held.map(|term| term.cause).filter(|own| *own != cause) {
                 match forms.iter_mut().find(|(own, _)| *own == form.mechanism) {
                     Some((_, weight)) => *weight += own.weight,
                     None => forms.push((form.mechanism, own.weight)),
@@ -137,9 +165,9 @@ impl Explanation {
         self.forms(cause) > 0
     }
 
-    /// How many of its terms are forms of a cause.
+    /// How many of its terms are forms of a cause, or friction of this kind that bends first.
     fn forms(&self, cause: Cause) -> usize {
-        let forms = self.terms.iter().filter(|term| is_form_of(term, cause));
+        let forms = self.terms.iter().filter(|term| includes(term, cause));
         forms.count()
     }
 }
@@ -166,6 +194,13 @@ fn are_forms(a: Mechanism, b: Mechanism) -> bool {
 /// Whether a term is a form of a cause at its place.
 fn is_form_of(own: &Term, cause: Cause) -> bool {
     own.cause.at == cause.at && are_forms(own.cause.mechanism, cause.mechanism)
+}
+
+/// Whether a term is a form of a cause, or becomes it once it slides: friction that bends first is
+/// friction in any case.
+fn includes(own: &Term, cause: Cause) -> bool {
+    let becomes = || bends_from(own.cause.mechanism) == Some(cause.mechanism);
+    is_form_of(own, cause) || own.cause.at == cause.at && becomes()
 }
 
 /// The word for a cause of this probability.

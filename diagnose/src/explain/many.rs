@@ -37,9 +37,8 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
     let rows = rows_a_sample(problem, &Folds::of(problem), &white);
     problem.rows_a_sample = rows;
     let round = Round::of(problem, &nominal, noise, rows);
-    let explanations = Explanations {
-        living: round.weighed(problem, noise),
-    };
+    let living = round.weighed(problem, noise);
+    let explanations = Explanations { living }.led_by_the_sure();
     (selected(problem, nominal, &explanations), explanations)
 }
 
