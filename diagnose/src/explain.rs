@@ -4,6 +4,7 @@
 
 mod beam;
 mod discrepancy;
+mod explanations;
 mod fitted;
 mod late;
 mod many;
@@ -15,204 +16,17 @@ use crate::candidates::{all_causes, is_at_an_end};
 use crate::cause::Cause;
 use crate::problem::{Kept, Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
-use crate::rules::{
-    AS_ONE, BEAM, EXCHANGES, EXPLAINED_LEFT, LISTED, NAMED, OFFERED, ROWS_A_SAMPLE, SUSPECTED,
-};
+use crate::rules::{BEAM, EXCHANGES, EXPLAINED_LEFT, LISTED, ROWS_A_SAMPLE};
 use crate::selection::{Found, Selection, Stage, centred, refined, usable_rms};
 use beam::Beam;
+pub use explanations::{Explanation, Explanations, status};
+use explanations::{is_form_of, kind};
 use fitted::{Fitted, Folds};
 use late::Late;
 pub use many::explain_many;
 use rayon::prelude::*;
-use rigproof_model::effects::facts;
-use rigproof_model::effects::facts::Shapes;
-use rigproof_spec::effect::Mechanism;
-use score::{Judge, bends_from, prior};
-use std::collections::BTreeSet;
+use score::{Judge, prior};
 use std::sync::Arc;
-
-/// One explanation: a set of terms on top of the nominal model.
-#[derive(Clone, Debug)]
-pub struct Explanation {
-    pub terms: Vec<Term>,
-    /// Its posterior probability among the explanations that were compared.
-    pub weight: f64,
-    /// Root mean square of its residual on left-out blocks, in standard deviations of the sensor
-    /// noise.
-    pub leaves: f64,
-    /// The logarithm of its predictive density on left-out blocks, without the prior.
-    pub evidence: f64,
-}
-
-/// The explanations of a recording, the most probable first.
-#[derive(Clone, Debug)]
-pub struct Explanations {
-    /// Those that are weighed; one of an arm may be one of thousands, each of little weight.
-    pub living: Vec<Explanation>,
-}
-
-impl Explanations {
-    /// The probability of a cause: the summed weight of all explanations that hold it.
-    ///
-    /// An explanation that holds it at another place counts too where no motion tells the places
-    /// apart.
-    ///
-    /// A cause that the leading one holds several times, with several periods, counts where it
-    /// stands at least as many `times`.
-    pub fn probability(&self, cause: Cause, times: usize) -> f64 {
-        let Some(leading) = self.living.first() else {
-            return 0.0;
-        };
-        let holds = |own: &&Explanation| own.forms(cause) >= times || leading.is_as(own, cause);
-        self.living.iter().filter(holds).map(|own| own.weight).sum()
-    }
-
-    /// The explanations led by one whose friction bends before it slides only where that is named.
-    ///
-    /// Where it is not, one with the plain law in its place leads: it is the surer name.
-    fn led_by_the_sure(mut self) -> Explanations {
-        let terms = self.living.first().map(|own| own.terms.clone());
-        for term in terms.unwrap_or_default() {
-            let plain = bends_from(term.cause.mechanism);
-            let Some(plain) = plain.filter(|_| self.probability(term.cause, 1) < NAMED) else {
-                continue;
-            };
-            let leading = self.living.first().into_iter().flat_map(|own| &own.terms);
-            let wanted = leading.map(|own| match own.cause == term.cause {
-                true => Cause {
-                    mechanism: plain,
-                    ..own.cause
-                },
-                false => own.cause,
-            });
-            let wanted: BTreeSet<Cause> = wanted.collect();
-            let has = |own: &Explanation| own.terms.iter().map(|term| term.cause).collect();
-            let plainer = self.living.iter().position(|own| wanted == has(own));
-            if let Some(place) = plainer {
-                self.living[..=place].rotate_right(1);
-            }
-        }
-        self
-    }
-
-    /// The other forms of a cause that explanations hold in its place, each with its probability.
-    ///
-    /// They are part of the probability of the cause. Only those that reach `OFFERED` are listed.
-    pub fn other_forms(&self, cause: Cause) -> Vec<(Mechanism, f64)> {
-        let mut forms: Vec<(Mechanism, f64)> = Vec::new();
-        for own in self.living.iter().filter(|own| own.holds(cause)) {
-            let held = own.terms.iter().filter(|term| includes(term, cause));
-            for form in held.map(|term| term.cause).filter(|own| *own != cause) {
-                match forms.iter_mut().find(|(own, _)| *own == form.mechanism) {
-                    Some((_, weight)) => *weight += own.weight,
-                    None => forms.push((form.mechanism, own.weight)),
-                }
-            }
-        }
-        forms.retain(|(_, weight)| *weight >= OFFERED);
-        forms
-    }
-
-    /// The causes that rival explanations hold instead of a cause of the leading one.
-    ///
-    /// Only causes are listed whose summed weight there, beyond what it would be if they stood beside
-    /// the cause as often, reaches `OFFERED`; the heaviest first.
-    pub fn instead_of(&self, cause: Cause) -> Vec<Cause> {
-        let Some((leading, others)) = self.living.split_first() else {
-            return Vec::new();
-        };
-        let without = || others.iter().filter(|own| !own.holds(cause));
-        let mut instead: Vec<Cause> = Vec::new();
-        for term in without().flat_map(|own| &own.terms) {
-            if !leading.holds(term.cause) && !instead.contains(&term.cause) {
-                instead.push(term.cause);
-            }
-        }
-        let sum = |held: bool, other: Option<&Cause>| -> f64 {
-            let those = self.living.iter().filter(|own| own.holds(cause) == held);
-            let those = those.filter(|own| other.is_none_or(|other| own.holds(*other)));
-            those.map(|own| own.weight).sum()
-        };
-        let odds = sum(false, None) / sum(true, None).max(f64::MIN_POSITIVE);
-        let weight = |other: &Cause| sum(false, Some(other)) - odds * sum(true, Some(other));
-        let is_as = |other: &Cause| {
-            let mut own = without().filter(|own| own.holds(*other));
-            own.any(|own| leading.is_as(own, cause))
-        };
-        instead.retain(|other| weight(other) >= OFFERED || is_as(other));
-        instead.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
-        instead
-    }
-}
-
-impl Explanation {
-    /// Whether `other` differs from this explanation only in the place of `cause` and predicts
-    /// equally well. The places are then not identifiable from this motion.
-    fn is_as(&self, other: &Explanation, cause: Cause) -> bool {
-        let apart = (self.evidence - other.evidence).abs();
-        let elsewhere = |own: &&Term| !self.holds(own.cause);
-        let mut others = other.terms.iter().filter(elsewhere);
-        let same = |own: &Term| are_forms(own.cause.mechanism, cause.mechanism);
-        apart < AS_ONE
-            && self.terms.len() == other.terms.len()
-            && !other.holds(cause)
-            && others.next().is_some_and(same)
-            && others.next().is_none()
-    }
-
-    /// Whether it holds a cause, in any form of its law.
-    fn holds(&self, cause: Cause) -> bool {
-        self.forms(cause) > 0
-    }
-
-    /// How many of its terms are forms of a cause, or friction of this kind that bends first.
-    fn forms(&self, cause: Cause) -> usize {
-        let forms = self.terms.iter().filter(|term| includes(term, cause));
-        forms.count()
-    }
-}
-
-/// The mechanism that this one is a form of, or itself.
-fn kind(mechanism: Mechanism) -> Mechanism {
-    facts(mechanism)
-        .and_then(|facts| facts.form_of)
-        .unwrap_or(mechanism)
-}
-
-/// Whether two mechanisms are forms of one: of the same law, or bristles, whose force builds up over
-/// a travel after each reversal and then stays.
-fn are_forms(a: Mechanism, b: Mechanism) -> bool {
-    let is_bristle = |mechanism| {
-        matches!(
-            facts(mechanism).map(|facts| facts.shapes),
-            Some(Shapes::Bristle | Shapes::BristleCurve | Shapes::Memory)
-        )
-    };
-    kind(a) == kind(b) || is_bristle(a) && is_bristle(b)
-}
-
-/// Whether a term is a form of a cause at its place.
-fn is_form_of(own: &Term, cause: Cause) -> bool {
-    own.cause.at == cause.at && are_forms(own.cause.mechanism, cause.mechanism)
-}
-
-/// Whether a term is a form of a cause, or becomes it once it slides: friction that bends first is
-/// friction in any case.
-fn includes(own: &Term, cause: Cause) -> bool {
-    let becomes = || bends_from(own.cause.mechanism) == Some(cause.mechanism);
-    is_form_of(own, cause) || own.cause.at == cause.at && becomes()
-}
-
-/// The word for a cause of this probability.
-pub const fn status(probability: f64) -> &'static str {
-    if probability >= NAMED {
-        "named"
-    } else if probability >= SUSPECTED {
-        "suspected"
-    } else {
-        "possible"
-    }
-}
 
 /// Explains a recording on top of the terms of its nominal model.
 ///
