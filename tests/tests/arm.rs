@@ -151,7 +151,7 @@ fn what_else_a_joint_of_an_arm_lacks_is_named_and_simulated() {
         (24, "presliding", "joint1"),
         (40, "spring", "joint2"),
         (45, "load_friction", "joint2"),
-        (63, "ripple", "joint2"),
+        (128, "ripple", "joint2"),
         (78, "velocity_power", "joint2"),
     ] {
         let (rig, trace) = made(seed);

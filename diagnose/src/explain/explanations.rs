@@ -67,7 +67,8 @@ impl Explanations {
             let has = |own: &Explanation| own.terms.iter().map(|term| term.cause).collect();
             let plainer = self.living.iter().position(|own| wanted == has(own));
             if let Some(place) = plainer {
-                self.living[..=place].rotate_right(1);
+                let own = self.living.remove(place);
+                self.living.insert(0, own);
             }
         }
         self

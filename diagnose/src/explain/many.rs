@@ -129,7 +129,7 @@ impl Round {
             });
             let better = match prunes {
                 true => grown
-                    .or_else(|| self.bent(problem, &best))
+                    .or_else(|| self.reshaped(problem, &best))
                     .or_else(|| self.exchanged(problem, &best))
                     .or_else(|| self.plainer(problem, &best)),
                 false => grown,
@@ -173,16 +173,18 @@ impl Round {
         Some((score, best.1.with(&self.folds, term)))
     }
 
-    /// The explanation with a law that bends before it slides instead of the plain one that it
-    /// becomes; `None` where none makes it more probable.
-    fn bent(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
-        self.replaced(problem, best, |own, term| becomes(term.cause, own.cause))
+    /// The explanation with a law in another shape, or one that bends before it slides instead of
+    /// the plain one that it becomes; `None` where none makes it more probable.
+    fn reshaped(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
+        self.replaced(problem, best, |own, term| {
+            own.cause == term.cause || becomes(term.cause, own.cause)
+        })
     }
 
     /// The explanation with one term exchanged for another; `None` where none makes it more
     /// probable.
     fn exchanged(&self, problem: &Problem, best: &(f64, Fitted)) -> Option<(f64, Fitted)> {
-        self.replaced(problem, best, |_, _| true)
+        self.replaced(problem, best, |own, term| own.cause != term.cause)
     }
 
     /// The best explanation with a term instead of one that gives way to it.
@@ -237,7 +239,7 @@ impl Round {
             others.all(|(_, other)| may_stand(core::slice::from_ref(other), term.cause))
         };
         let given = own.terms.iter().enumerate();
-        let given = given.filter(|(_, own)| own.cause != term.cause && may_give_way(own));
+        let given = given.filter(|(_, own)| may_give_way(own));
         let given = given.filter(|(index, _)| stays_beside(*index));
         let given: Vec<usize> = given.map(|(index, _)| index).collect();
         if given.is_empty() {
@@ -301,7 +303,12 @@ impl Round {
             let joined = may_stand(&own.terms, term.cause).then(|| own.with(&self.folds, term));
             let joined = joined.filter(|own| !is_impossible(problem, own));
             let joined = joined.map(|own| self.score(problem, &own));
-            let instead = || Some(self.with_instead(problem, own, term, |_| true)?.0);
+            let instead = || {
+                Some(
+                    self.with_instead(problem, own, term, |own| own.cause != term.cause)?
+                        .0,
+                )
+            };
             Some((joined.or_else(instead)?, term))
         });
         let mut best: BTreeMap<Cause, (f64, &Term)> = BTreeMap::new();
