@@ -144,7 +144,7 @@ impl Explanation {
         self.forms(cause) > 0
     }
 
-    /// How many of its terms are forms of a cause, or friction of this kind that bends first.
+    /// How many of its terms are forms of a cause, or become it once they slide.
     fn forms(&self, cause: Cause) -> usize {
         let forms = self.terms.iter().filter(|term| includes(term, cause));
         forms.count()
@@ -190,5 +190,47 @@ pub const fn status(probability: f64) -> &'static str {
         "suspected"
     } else {
         "possible"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plants::five_bar::recorded::{problem, short_run};
+    use crate::plants::five_bar::run::at;
+    use rigproof_spec::joint::Joint;
+
+    #[test]
+    fn friction_that_bends_is_friction_and_leads_where_the_bend_is_sure() {
+        let run = short_run();
+        let problem = problem(&run);
+        let term = |mechanism, shape: &[f64]| {
+            let own = problem.whole_term(at(mechanism, Joint::A), shape);
+            own.unwrap()
+        };
+        let [dry, bent] = [
+            term(Mechanism::DryOffset, &[]),
+            term(Mechanism::Presliding, &[0.01]),
+        ];
+        let of = |term: &Term, weight: f64| Explanation {
+            terms: vec![term.clone()],
+            weight,
+            leaves: 1.0,
+            evidence: 0.0,
+        };
+        let led = |weight: f64| {
+            let living = vec![of(&bent, weight), of(&dry, 1.0 - weight)];
+            Explanations { living }.led_by_the_sure()
+        };
+        let leads = |own: &Explanations| own.living[0].terms[0].cause;
+        let unsure = led(0.6);
+        assert_eq!(leads(&unsure), dry.cause);
+        assert!((unsure.probability(dry.cause, 1) - 1.0).abs() < 1e-12);
+        assert!((unsure.probability(bent.cause, 1) - 0.6).abs() < 1e-12);
+        assert_eq!(
+            unsure.other_forms(dry.cause),
+            [(Mechanism::Presliding, 0.6)]
+        );
+        assert_eq!(leads(&led(0.95)), bent.cause);
     }
 }
