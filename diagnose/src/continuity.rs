@@ -18,7 +18,7 @@ pub use clock::{roughness, settle};
 pub struct Remark {
     /// The role of the channel.
     pub channel: &'static str,
-    /// What was wrong: `wrapped`, `dropouts`, `repeated`, `held`, `filled_in`, `jumped`, `jitter`.
+    /// What was wrong or is odd: `wrapped`, `dropouts`, `repeated`, `held`, `filled_in`, `jumped`, `jitter`.
     pub what: &'static str,
     /// The first time, s.
     pub from_s: f64,

@@ -51,7 +51,8 @@ pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Exp
             break living;
         }
     };
-    let explanations = Explanations { living };
+    let likest = round.likest();
+    let explanations = Explanations { living, likest };
     (selected(problem, nominal, &explanations), explanations)
 }
 
@@ -114,6 +115,14 @@ impl Round {
             all,
             changed,
         }
+    }
+
+    /// The cause that alone takes away most of what the nominal model leaves, and its share of that.
+    fn likest(&self) -> Option<(Cause, f64)> {
+        let alone = self.all.iter().filter(|own| own.terms.len() == 1);
+        let best = alone.min_by(|a, b| a.left().total_cmp(&b.left()))?;
+        let share = 1.0 - best.left() / self.bare.left().max(1e-300);
+        Some((best.terms.first()?.cause, share))
     }
 
     fn predicts_best(&self) -> Option<&Fitted> {

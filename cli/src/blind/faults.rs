@@ -19,7 +19,13 @@ const LEAST_RIGHT: f64 = 0.9;
 const MOST_FALSE: f64 = 0.01;
 
 /// Remarks about a result, which are no faults of its recording.
-const OF_THE_RESULT: [&str; 3] = ["below_floor", "inertia_not_told", "negative_delay"];
+const OF_THE_RESULT: [&str; 5] = [
+    "below_floor",
+    "inertia_not_told",
+    "negative_delay",
+    "forms",
+    "likest",
+];
 
 /// What became of a seed.
 struct Tried {

@@ -93,7 +93,7 @@ fn verdict(report: &Report) -> String {
             open(report.verdict == Verdict::Ambiguous, &named, &suspected)
         }
         Verdict::NoneOfLibrary => {
-            "Cause not known: more than sensor noise is left, and no known effect has its shape."
+            "Cause not known: more than sensor noise is left, and no known effect explains it well enough to be named."
                 .to_owned()
         }
         Verdict::NotExcited => "No conclusion: the recording moves too little.".to_owned(),
@@ -209,7 +209,9 @@ fn doubt(report: &Report) -> Option<String> {
     let left = report.floor.as_ref().map(|floor| floor.ratio_after);
     let said = match (rivals.as_slice(), report.verdict) {
         ([], Verdict::PartlyExplained | Verdict::NoneOfLibrary) => {
-            format!("what stays is {} times the sensor noise", rounded(left?))
+            let left = format!("what stays is {} times the sensor noise", rounded(left?));
+            let likest = report.likest();
+            likest.map_or(left.clone(), |likest| format!("{left}; {likest}"))
         }
         ([], _) => return None,
         ([one], _) => format!("this recording cannot rule out {one}"),

@@ -5,8 +5,9 @@ use crate::cause::Cause;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
 use crate::plant::{Plant, Run};
 use crate::report::{Floor, Remark};
-use crate::rules::FAR_BELOW_FLOOR;
-use crate::selection::refs;
+use crate::rules::{CURVE_SHARE, FAR_BELOW_FLOOR};
+use crate::selection::{floor_limit, refs};
+use rigproof_model::effects::facts;
 use rigproof_spec::effect::Mechanism;
 
 impl<P: Plant> Stand<'_, P> {
@@ -42,7 +43,27 @@ impl<P: Plant> Stand<'_, P> {
         }
         let found = self.selection.found.iter().map(|own| own.term.cause);
         remarks.extend(found.filter_map(|cause| self.forms_of(cause)));
+        remarks.extend(self.likest(floor));
         remarks
+    }
+
+    /// Says which cause of the library is most like what is left, where none is named.
+    fn likest(&self, floor: &Floor) -> Option<Remark> {
+        let (cause, share) = self.explanations.likest?;
+        let is_open =
+            self.selection.found.is_empty() && floor.ratio_after > floor_limit(self.problem);
+        (is_open && share > CURVE_SHARE).then(|| {
+            self.odd(
+                "likest",
+                "effect",
+                format!(
+                    "most like it is {} ({}), which alone takes away {:.0} % of its energy, too little to be named",
+                    facts(cause.mechanism).map_or("", |facts| facts.words.what),
+                    self.problem.name(cause),
+                    100.0 * share
+                ),
+            )
+        })
     }
 
     /// Says that a name stands for other forms of its law too.

@@ -89,7 +89,7 @@ pub(crate) fn summary(
             format!("the model {left_out}{or}{shown}{disagrees}")
         }
         Verdict::NoneOfLibrary => {
-            "the model left out something that is not in the library; `located` says where"
+            "the model left out something that no effect of the library explains well enough to be named; `located` says where"
                 .to_owned()
         }
         Verdict::NotExcited => "the recording moves too little for a conclusion".to_owned(),

@@ -27,6 +27,8 @@ pub struct Explanation {
 pub struct Explanations {
     /// Those that are weighed; one of an arm may be one of thousands, each of little weight.
     pub living: Vec<Explanation>,
+    /// The cause that alone takes away most of what the nominal model leaves, and its share of that.
+    pub likest: Option<(Cause, f64)>,
 }
 
 impl Explanations {
@@ -220,7 +222,8 @@ mod tests {
         };
         let led = |weight: f64| {
             let living = vec![of(&bent, weight), of(&dry, 1.0 - weight)];
-            Explanations { living }.led_by_the_sure()
+            let likest = None;
+            Explanations { living, likest }.led_by_the_sure()
         };
         let leads = |own: &Explanations| own.living[0].terms[0].cause;
         let unsure = led(0.6);

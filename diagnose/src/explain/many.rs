@@ -38,7 +38,8 @@ pub fn explain_many(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection
     problem.rows_a_sample = rows;
     let round = Round::of(problem, &nominal, noise, rows);
     let living = round.weighed(problem, noise);
-    let explanations = Explanations { living }.led_by_the_sure();
+    let likest = None;
+    let explanations = Explanations { living, likest }.led_by_the_sure();
     (selected(problem, nominal, &explanations), explanations)
 }
 

@@ -57,6 +57,13 @@ impl Report {
         self.effects.iter().any(|own| own.mechanism != mended)
     }
 
+    /// What is most like what is left where nothing is named, in words.
+    pub fn likest(&self) -> Option<&str> {
+        let mut remarks = self.remarks.iter();
+        let own = remarks.find(|own| own.what == "likest")?;
+        Some(&own.words)
+    }
+
     /// Whether the described model agrees with the recording, once alignment has mended it.
     pub fn agrees(&self) -> bool {
         match self.verdict {

@@ -73,7 +73,7 @@ fn sentence(report: &Report) -> String {
             }
         }
         Verdict::NoneOfLibrary => format!(
-            "The real {device} does something that neither the model nor any effect in the library describes."
+            "The real {device} does something that the model leaves out, and that no effect in the library describes well enough to be named."
         ),
         Verdict::NotExcited => {
             format!("The {device} moved too little in this recording to tell anything.")
@@ -120,7 +120,11 @@ fn meaning(report: &Report) -> Markup {
             html! { "Another cause would explain this recording as well. Below it is said which, and what would tell them apart." }
         }
         Verdict::NoneOfLibrary => {
-            html! { "More than sensor noise is left, and no known effect has its shape. Below it is said where and when: look there on the rig." }
+            html! {
+                "More than sensor noise is left, and no known effect explains it well enough"
+                @if let Some(likest) = report.likest() { "; " (likest) }
+                ". Below it is said where and when: look there on the rig."
+            }
         }
         Verdict::NotExcited => {
             html! { "Record again with more motion: several reversals at several speeds, over the whole range." }

@@ -374,3 +374,16 @@ fn a_nominal_model_that_explains_nothing_is_no_fault_where_a_cause_explains_it()
     assert!(left > effort.sqrt(), "{left} of {effort}");
     assert_eq!(named(&found), ["presliding"], "{}", found.report.summary);
 }
+
+#[test]
+fn what_is_too_small_to_be_named_is_said_to_be_most_like_it() {
+    // Less than 0.3 % of the effort counts as something that no model is exact to.
+    for diagnosis in both(&[(Mechanism::DryOffset, &[0.025])]) {
+        let report = &diagnosis.report;
+        assert_eq!(report.verdict, Verdict::NoneOfLibrary, "{}", report.summary);
+        let said = report.likest().unwrap();
+        assert!(said.contains("(dry_offset)"), "{said}");
+    }
+    let [named, ..] = both(&[DRY]);
+    assert_eq!(named.report.likest(), None);
+}
