@@ -209,9 +209,12 @@ fn doubt(report: &Report) -> Option<String> {
     let left = report.floor.as_ref().map(|floor| floor.ratio_after);
     let said = match (rivals.as_slice(), report.verdict) {
         ([], Verdict::PartlyExplained | Verdict::NoneOfLibrary) => {
-            let left = format!("what stays is {} times the sensor noise", rounded(left?));
-            let likest = report.likest();
-            likest.map_or(left.clone(), |likest| format!("{left}; {likest}"))
+            let likest = report.likest().map(|own| format!("; {own}"));
+            format!(
+                "what stays is {} times the sensor noise{}",
+                rounded(left?),
+                likest.unwrap_or_default()
+            )
         }
         ([], _) => return None,
         ([one], _) => format!("this recording cannot rule out {one}"),

@@ -180,8 +180,12 @@ pub fn is_form_of(own: &Term, cause: Cause) -> bool {
 /// Whether a term is a form of a cause, or becomes it once it slides: friction that bends first is
 /// friction in any case.
 fn includes(own: &Term, cause: Cause) -> bool {
-    let becomes = || bends_from(own.cause.mechanism) == Some(cause.mechanism);
-    is_form_of(own, cause) || own.cause.at == cause.at && becomes()
+    is_form_of(own, cause) || becomes(own.cause, cause)
+}
+
+/// Whether one cause bends before it becomes the other.
+pub fn becomes(own: Cause, plain: Cause) -> bool {
+    own.at == plain.at && bends_from(own.mechanism) == Some(plain.mechanism)
 }
 
 /// The word for a cause of this probability.

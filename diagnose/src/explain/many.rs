@@ -5,8 +5,9 @@
 
 use super::beam::may_join;
 use super::discrepancy::rows_a_sample;
+use super::explanations::becomes;
 use super::fitted::{Fitted, Folds};
-use super::score::{Judge, bends_from, is_impossible};
+use super::score::{Judge, is_impossible};
 use super::walk::{self, Sets, Tried};
 use super::{Explanation, Explanations, living, selected, shapes_of};
 use crate::candidates::is_plain;
@@ -72,11 +73,6 @@ fn is_link(term: &Term) -> bool {
 fn may_stand(terms: &[Term], cause: Cause) -> bool {
     let mut others = terms.iter().map(|own| own.cause);
     may_join(terms, cause) && !others.any(|own| becomes(own, cause) || becomes(cause, own))
-}
-
-/// Whether one cause bends before it becomes the other.
-fn becomes(own: Cause, plain: Cause) -> bool {
-    own.at == plain.at && bends_from(own.mechanism) == Some(plain.mechanism)
 }
 
 /// One search under one noise model.
