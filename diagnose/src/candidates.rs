@@ -413,7 +413,7 @@ pub fn is_at_an_end(problem: &Problem, term: &Term) -> bool {
 /// The places of a term's shape parameters that were searched for.
 ///
 /// A parameter whose range is a point is given. One that ends at a bound, other than the first,
-/// stands for the simpler law and does not count.
+/// stands for the simpler law and does not count, unless it is a sign.
 pub fn searched(problem: &Problem, term: &Term) -> impl Iterator<Item = usize> {
     let bounds = shape_bounds(problem, term.cause, &term.shape);
     let own = term.numbers().iter().zip(&bounds[..]);
@@ -421,9 +421,18 @@ pub fn searched(problem: &Problem, term: &Term) -> impl Iterator<Item = usize> {
     let open = own.into_iter().enumerate();
     open.filter(|(k, (value, bounds))| match k {
         0 => bounds.0 < bounds.1,
-        _ => !is_end(*value, *bounds),
+        _ => is_sign(term.cause, *k) || !is_end(*value, *bounds),
     })
     .map(|(k, _)| k)
+}
+
+/// Whether a shape parameter is a sign, which is one or the other and is not refined.
+pub fn is_sign(cause: Cause, place: usize) -> bool {
+    let number = cause
+        .mechanism
+        .parameters()
+        .get(linear(cause.mechanism) + place);
+    number.is_some_and(|number| number.range == Range::Sign)
 }
 
 /// Whether a value lies at an end of a range.

@@ -5,7 +5,9 @@
 mod beam;
 mod discrepancy;
 mod explanations;
+mod factor;
 mod fitted;
+mod folds;
 mod late;
 mod many;
 mod refine;
@@ -21,7 +23,8 @@ use crate::selection::{Found, Selection, Stage, centred, refined, usable_rms};
 use beam::Beam;
 pub use explanations::{Explanation, Explanations, status};
 use explanations::{is_form_of, kind};
-use fitted::{Fitted, Folds};
+use fitted::Fitted;
+use folds::Folds;
 use late::Late;
 pub use many::explain_many;
 use rayon::prelude::*;
@@ -52,7 +55,7 @@ pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Exp
         }
     };
     let likest = round.likest();
-    let explanations = Explanations { living, likest };
+    let explanations = Explanations { living, likest }.led_by_the_sure();
     (selected(problem, nominal, &explanations), explanations)
 }
 
@@ -165,7 +168,7 @@ impl Round {
             judge.all_matter(folds, bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
         let judged = possible.map(|own| Judged::of(judge.score(problem, folds, own), own));
-        living(problem, folds.rows(), judged.collect(), noise, LISTED)
+        living(problem, folds.count(), judged.collect(), noise, LISTED)
     }
 }
 

@@ -168,7 +168,7 @@ vocabulary! {
     JointStop = "joint_stop" called "joint stop or tether" | "end stop" | "hard stop" | "bumper" [
         needed("stiffness", EffortPerTravel),
         needed("position", Travel),
-        needed("side", Number),
+        needed("side", Number).sign(),
     ],
     /// Friction proportional to a power of speed.
     VelocityPower = "velocity_power" called "drag by a power of speed" | "quadratic drag" | "turbulent drag" [
@@ -337,13 +337,15 @@ pub enum Range {
     AboveZero,
     /// From 0 to 1: a part of something.
     Part,
+    /// Every finite one, of which the sign alone counts.
+    Sign,
 }
 
 impl Range {
     /// The least and the greatest number that has a meaning, or that one comes near to.
     pub const fn ends(self) -> [f64; 2] {
         match self {
-            Range::Any => [f64::NEG_INFINITY, f64::INFINITY],
+            Range::Any | Range::Sign => [f64::NEG_INFINITY, f64::INFINITY],
             Range::NotBelowZero | Range::AboveZero => [0.0, f64::INFINITY],
             Range::Part => [0.0, 1.0],
         }
@@ -377,6 +379,13 @@ impl Parameter {
     const fn part(self) -> Parameter {
         Parameter {
             range: Range::Part,
+            ..self
+        }
+    }
+
+    const fn sign(self) -> Parameter {
+        Parameter {
+            range: Range::Sign,
             ..self
         }
     }

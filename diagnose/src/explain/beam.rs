@@ -1,7 +1,8 @@
 //! This file searches among sets of terms with a beam: several explanations stay alive at once, so
 //! that the order in which terms enter decides nothing.
 
-use super::fitted::{Fitted, Folds};
+use super::fitted::Fitted;
+use super::folds::Folds;
 use super::is_form_of;
 use super::refine::refined;
 use super::score::{Judge, is_impossible};

@@ -1,6 +1,6 @@
 //! This file says how many neighbouring rows of a residual count as one independent sample.
 
-use super::fitted::Folds;
+use super::folds::Folds;
 use crate::problem::Problem;
 use crate::rules::{FEWEST_REPEATS, LEAST_CORRELATION, ROWS_A_SAMPLE};
 

@@ -47,14 +47,14 @@ impl Explanations {
         self.living.iter().filter(holds).map(|own| own.weight).sum()
     }
 
-    /// The explanations led by one whose friction bends before it slides only where that is named.
+    /// The explanations led by one that holds a form of a law, or friction that bends before it
+    /// slides, only where that is named.
     ///
     /// Where it is not, one with the plain law in its place leads: it is the surer name.
     pub fn led_by_the_sure(mut self) -> Explanations {
         let terms = self.living.first().map(|own| own.terms.clone());
         for term in terms.unwrap_or_default() {
-            let plain = bends_from(term.cause.mechanism);
-            let Some(plain) = plain.filter(|_| self.probability(term.cause, 1) < NAMED) else {
+            let Some(plain) = self.surer(term.cause) else {
                 continue;
             };
             let leading = self.living.first().into_iter().flat_map(|own| &own.terms);
@@ -74,6 +74,18 @@ impl Explanations {
             }
         }
         self
+    }
+
+    /// The plain law of a cause of which the probability does not name it in particular.
+    fn surer(&self, cause: Cause) -> Option<Mechanism> {
+        let plain = kind(cause.mechanism);
+        let is_it = |own: &&Explanation| own.terms.iter().any(|term| term.cause == cause);
+        let those = self.living.iter().filter(is_it);
+        let in_this_form: f64 = those.map(|own| own.weight).sum();
+        match plain == cause.mechanism {
+            true => bends_from(plain).filter(|_| self.probability(cause, 1) < NAMED),
+            false => Some(plain).filter(|_| in_this_form < NAMED),
+        }
     }
 
     /// The other forms of a cause that explanations hold in its place, each with its probability.
@@ -102,24 +114,27 @@ impl Explanations {
         let Some((leading, others)) = self.living.split_first() else {
             return Vec::new();
         };
-        let without = || others.iter().filter(|own| !own.holds(cause));
-        let mut instead: Vec<Cause> = Vec::new();
-        for term in without().flat_map(|own| &own.terms) {
-            if !leading.holds(term.cause) && !instead.contains(&term.cause) {
-                instead.push(term.cause);
-            }
-        }
+        let rivals = others.iter().filter(|own| !own.holds(cause));
+        let rivals: Vec<&Explanation> = rivals.collect();
         let sum = |held: bool, other: Option<&Cause>| -> f64 {
             let those = self.living.iter().filter(|own| own.holds(cause) == held);
             let those = those.filter(|own| other.is_none_or(|other| own.holds(*other)));
             those.map(|own| own.weight).sum()
         };
+        let alike = rivals.iter().filter(|own| leading.is_as(own, cause));
+        let alike: Vec<&&Explanation> = alike.collect();
+        if sum(false, None) < OFFERED && alike.is_empty() {
+            return Vec::new();
+        }
+        let mut instead: Vec<Cause> = Vec::new();
+        for term in rivals.iter().flat_map(|own| &own.terms) {
+            if !leading.holds(term.cause) && !instead.contains(&term.cause) {
+                instead.push(term.cause);
+            }
+        }
         let odds = sum(false, None) / sum(true, None).max(f64::MIN_POSITIVE);
         let weight = |other: &Cause| sum(false, Some(other)) - odds * sum(true, Some(other));
-        let is_as = |other: &Cause| {
-            let mut own = without().filter(|own| own.holds(*other));
-            own.any(|own| leading.is_as(own, cause))
-        };
+        let is_as = |other: &Cause| alike.iter().any(|own| own.holds(*other));
         instead.retain(|other| weight(other) >= OFFERED || is_as(other));
         instead.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
         instead

@@ -2,7 +2,8 @@
 //! recording.
 
 use super::beam::joins;
-use super::fitted::{Fitted, Folds};
+use super::fitted::Fitted;
+use super::folds::Folds;
 use super::refine::refined;
 use super::score::{Judge, is_impossible};
 use super::unfitted;

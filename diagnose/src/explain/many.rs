@@ -6,7 +6,8 @@
 use super::beam::may_join;
 use super::discrepancy::rows_a_sample;
 use super::explanations::becomes;
-use super::fitted::{Fitted, Folds};
+use super::fitted::Fitted;
+use super::folds::Folds;
 use super::score::{Judge, is_impossible};
 use super::walk::{self, Sets, Tried};
 use super::{Explanation, Explanations, living, selected, shapes_of};
@@ -272,7 +273,7 @@ impl Round {
         })
     }
 
-    /// The explanations that random walks from the leading one visit, the most probable first.
+    /// The explanations that random walks from the leading one meet, the most probable first.
     fn weighed(&self, problem: &Problem, noise: f64) -> Vec<Explanation> {
         let leading = self.searched(problem);
         let start = (self.score(problem, &leading), leading);
@@ -280,8 +281,8 @@ impl Round {
             round: self,
             problem,
         };
-        let visited = walk::visited(&sets, &start, &self.reachable(problem, &start));
-        living(problem, self.folds.rows(), visited, noise, 0.0)
+        let met = walk::met(&sets, &start, &self.reachable(problem, &start));
+        living(problem, self.folds.count(), met, noise, f64::EPSILON)
     }
 
     /// One term of each cause: that of the explanation, or in the shape with which it joins it best.

@@ -1,9 +1,10 @@
 //! This file refines the shapes of an explanation's terms by a pattern search inside their bounds.
 
-use super::fitted::{Fitted, Folds};
+use super::fitted::Fitted;
+use super::folds::Folds;
 use super::score::{Judge, is_impossible, prior};
 use super::unfitted;
-use crate::candidates::{is_periodic, shape_bounds};
+use crate::candidates::{is_periodic, is_sign, shape_bounds};
 use crate::problem::{Problem, Term};
 use crate::rules::{
     MOST_MOVES, PEAK_EXPONENTS_FIVE_BAR, PERIOD_STRIDE, STRIDES, TAKEN_AGAIN, TOP_STRIDES,
@@ -262,6 +263,7 @@ fn moves(problem: &Problem, own: &Term, stride: f64) -> Vec<(Move, Term)> {
         place: k / 2,
         up: k % 2 == 0,
     });
+    let each = each.filter(|by| !is_sign(own.cause, by.place));
     each.filter_map(|by| Some((by, moved_by(problem, own, by, stride)?)))
         .collect()
 }

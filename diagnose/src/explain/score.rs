@@ -1,7 +1,8 @@
 //! This file gives the posterior of an explanation: its predictive density on left-out blocks, and
 //! a prior that prefers few parameters.
 
-use super::fitted::{Fitted, Folds};
+use super::fitted::Fitted;
+use super::folds::Folds;
 use super::kind;
 use crate::candidates::{is_plain, searched};
 use crate::cause::{Cause, Scales};
@@ -61,7 +62,7 @@ impl Judge {
             let left = own.residual(folds);
             dot(&left, &left)
         };
-        let least = energy(fitted) + self.granted * folds.rows();
+        let least = energy(fitted) + self.granted * folds.count();
         (0..fitted.terms.len()).all(|index| {
             let mut others = fitted.terms.clone();
             others.remove(index);

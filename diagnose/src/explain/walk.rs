@@ -35,8 +35,8 @@ pub struct Tried<'a> {
     pub weight: f64,
 }
 
-/// The sets that walks from `start` visited. Their fits are not kept: there may be thousands.
-pub fn visited(sets: &impl Sets, start: &Scored, tried: &[Tried]) -> Vec<Judged> {
+/// The sets that walks from `start` met. Their fits are not kept: there may be thousands.
+pub fn met(sets: &impl Sets, start: &Scored, tried: &[Tried]) -> Vec<Judged> {
     let walks = (0..WALKS).into_par_iter().map(|seed| {
         let random = Pcg64Mcg::seed_from_u64(seed as u64);
         Walk {
@@ -46,7 +46,7 @@ pub fn visited(sets: &impl Sets, start: &Scored, tried: &[Tried]) -> Vec<Judged>
         }
         .steps(start.clone())
     });
-    let mut all = Visited::new();
+    let mut all = Met::new();
     for own in walks.collect::<Vec<_>>() {
         all.extend(own);
     }
@@ -54,7 +54,7 @@ pub fn visited(sets: &impl Sets, start: &Scored, tried: &[Tried]) -> Vec<Judged>
 }
 
 /// Sets by their causes.
-type Visited = BTreeMap<Vec<Cause>, Judged>;
+type Met = BTreeMap<Vec<Cause>, Judged>;
 
 /// One walk.
 struct Walk<'a, S> {
@@ -63,40 +63,68 @@ struct Walk<'a, S> {
     random: Pcg64Mcg,
 }
 
+/// A step: the term that goes, the one that comes.
+type Step<'a> = (Option<usize>, Option<&'a Term>);
+
 impl<'a, S: Sets> Walk<'a, S> {
-    /// The sets that it visits.
-    fn steps(mut self, mut now: Scored) -> Visited {
-        let mut seen = Visited::new();
+    /// The sets that it meets. One that it steps back from counts too: its posterior is known.
+    fn steps(mut self, mut now: Scored) -> Met {
+        let mut met = Met::new();
+        met.insert(sorted(now.1.causes()), Judged::of(now.0, &now.1));
         for _ in 0..WALK_STEPS {
-            let mut causes: Vec<Cause> = now.1.causes().collect();
-            causes.sort();
-            seen.entry(causes)
-                .or_insert_with(|| Judged::of(now.0, &now.1));
-            let next = self
-                .proposed(&now.1)
-                .map(|own| (self.sets.score(&own), own));
+            let Some(step) = self.proposed(&now.1) else {
+                continue;
+            };
+            let share = self.share();
             // Each proposal is as likely as its way back (Metropolis and others, Journal of
             // Chemical Physics 21, 1953).
-            let accepted = next.filter(|next| self.share() < libm::exp(next.0 - now.0));
-            now = accepted.unwrap_or(now);
+            let accepts = |score: f64| share < libm::exp(score - now.0);
+            let causes = sorted(after(&now.1, step));
+            if met.get(&causes).is_some_and(|own| !accepts(own.score)) {
+                continue;
+            }
+            let Some(next) = self.taken(&now.1, step) else {
+                continue;
+            };
+            let score = self.sets.score(&next);
+            met.entry(causes)
+                .or_insert_with(|| Judged::of(score, &next));
+            if accepts(score) {
+                now = (score, next);
+            }
         }
-        seen
+        met.retain(|_, own| own.score > f64::NEG_INFINITY);
+        met
     }
 
-    /// The set with one term added or removed, or every other time with one exchanged.
-    fn proposed(&mut self, now: &Fitted) -> Option<Fitted> {
+    /// A term added or removed, or every other time one exchanged: half of these for another one
+    /// at the same place, which often explains nearly the same.
+    fn proposed(&mut self, now: &Fitted) -> Option<Step<'a>> {
         let exchanges = self.share() < 0.5;
         let term = self.drawn(exchanges)?;
         let place = now.causes().position(|cause| cause == term.cause);
         match (place, exchanges) {
-            (Some(index), false) => Some(self.sets.without(now, index)),
-            (None, false) => self.sets.with(now, term),
+            (Some(index), false) => Some((Some(index), None)),
+            (None, false) => Some((None, Some(term))),
             (Some(_), true) => None,
-            (None, true) if now.terms.is_empty() => None,
             (None, true) => {
-                let index = (self.share() * now.terms.len() as f64) as usize;
-                self.sets.with(&self.sets.without(now, index), term)
+                let anywhere = self.share() < 0.5;
+                let gives_way = |cause: Cause| anywhere || cause.at == term.cause.at;
+                let causes = now.causes().enumerate();
+                let given = causes.filter_map(|(k, own)| gives_way(own).then_some(k));
+                let given: Vec<usize> = given.collect();
+                let index = (self.share() * given.len() as f64) as usize;
+                Some((Some(*given.get(index)?), Some(term)))
             }
+        }
+    }
+
+    /// The set after a step; `None` where the term may not join it.
+    fn taken(&self, now: &Fitted, (goes, comes): Step) -> Option<Fitted> {
+        let fewer = goes.map(|index| self.sets.without(now, index));
+        match comes {
+            Some(term) => self.sets.with(fewer.as_ref().unwrap_or(now), term),
+            None => fewer,
         }
     }
 
@@ -122,10 +150,25 @@ impl<'a, S: Sets> Walk<'a, S> {
     }
 }
 
+/// The causes after a step.
+fn after<'a>(now: &'a Fitted, (goes, comes): Step<'a>) -> impl Iterator<Item = Cause> + 'a {
+    let stay = now
+        .causes()
+        .enumerate()
+        .filter(move |(k, _)| Some(*k) != goes);
+    stay.map(|(_, own)| own).chain(comes.map(|term| term.cause))
+}
+
+fn sorted(causes: impl Iterator<Item = Cause>) -> Vec<Cause> {
+    let mut causes: Vec<Cause> = causes.collect();
+    causes.sort();
+    causes
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explain::fitted::Folds;
+    use crate::explain::folds::Folds;
     use crate::plants::five_bar::recorded::{problem, short_run};
     use crate::plants::five_bar::run::at;
     use rigproof_spec::effect::Mechanism;
@@ -180,7 +223,7 @@ mod tests {
             .zip(weights)
             .map(|(term, weight)| Tried { term, weight })
             .collect();
-        let found = visited(&toy, &(0.0, toy.bare.clone()), &tried);
+        let found = met(&toy, &(0.0, toy.bare.clone()), &tried);
         let sets = found.iter().map(|own| {
             let mut causes: Vec<Cause> = own.terms.iter().map(|term| term.cause).collect();
             causes.sort();

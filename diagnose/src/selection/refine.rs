@@ -1,7 +1,7 @@
 //! This file refines the shape and the onset of a term by a pattern search inside their bounds.
 
 use super::weigh::{effort_beside, loss_with, own_coefficients};
-use crate::candidates::{is_periodic, modelled_effort, realise, shape_bounds};
+use crate::candidates::{is_periodic, is_sign, modelled_effort, realise, shape_bounds};
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, fit};
 use crate::rules::{
@@ -35,6 +35,10 @@ pub(crate) fn refined(problem: &Problem, common: &[&Term], start: Term, blocks: 
     for _ in 0..MOST_ROUNDS {
         let before = best.0;
         for direction in directions(best.1.numbers().len(), best.1.onset_s.is_some()) {
+            let mut along = direction.iter().enumerate();
+            if along.any(|(place, by)| *by != 0.0 && is_sign(best.1.cause, place)) {
+                continue;
+            }
             let Some(moved) = moved(problem, &best.1, &direction, stride, &bounds, &effort) else {
                 continue;
             };

@@ -340,7 +340,7 @@ pub(super) fn read_effect(
                 let message = format!("`{}` is from 0 to 1", parameter.name);
                 return Err(table.error_at(parameter.name, message));
             }
-            Range::NotBelowZero | Range::Part | Range::Any => {}
+            Range::NotBelowZero | Range::Part | Range::Any | Range::Sign => {}
         }
         values.push(value);
     }

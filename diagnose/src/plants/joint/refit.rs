@@ -104,6 +104,7 @@ struct OutputError<'a> {
 fn within(range: Range, number: f64, start: f64) -> f64 {
     let [least, most] = range.ends();
     let least = match range {
+        Range::Sign => return start,
         Range::AboveZero => 1e-3 * start,
         _ => least,
     };

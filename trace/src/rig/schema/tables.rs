@@ -122,7 +122,7 @@ pub fn effect() -> Value {
                 let mut what = defined("value");
                 what["description"] = json!(unit);
                 match parameter.range {
-                    Range::Any => {}
+                    Range::Any | Range::Sign => {}
                     Range::AboveZero => {
                         what["properties"] = json!({ "value": { "exclusiveMinimum": 0 } })
                     }
