@@ -18,7 +18,7 @@ use crate::candidates::{all_causes, is_at_an_end};
 use crate::cause::Cause;
 use crate::problem::{Kept, Problem, Term};
 use crate::regression::{Blocks, fit, free_columns, paired, reduced_target};
-use crate::rules::{BEAM, EXCHANGES, EXPLAINED_LEFT, LISTED, ROWS_A_SAMPLE};
+use crate::rules::{AS_ONE, BEAM, EXCHANGES, EXPLAINED_LEFT, LISTED, ROWS_A_SAMPLE};
 use crate::selection::{Found, Selection, Stage, centred, refined, usable_rms};
 use beam::Beam;
 pub use explanations::{Explanation, Explanations, status};
@@ -191,7 +191,9 @@ impl Judged {
     }
 }
 
-/// Explanations with their probability, the best first, without those below `least`.
+/// Explanations with their probability, the best first, without those below `least`. Of those whose
+/// odds are those of the best but for rounding, the one whose causes stand first in the vocabulary
+/// leads.
 fn living(
     problem: &Problem,
     rows: f64,
@@ -201,6 +203,9 @@ fn living(
 ) -> Vec<Explanation> {
     judged.sort_by(|a, b| b.score.total_cmp(&a.score));
     let most = judged.first().map_or(0.0, |own| own.score);
+    let equal = judged.partition_point(|own| most - own.score <= AS_ONE);
+    let (equal, _) = judged.split_at_mut(equal);
+    equal.sort_by_key(|own| sorted(own.terms.iter().map(|term| term.cause)));
     let sum: f64 = judged.iter().map(|own| libm::exp(own.score - most)).sum();
     let listed = judged.into_iter().map(|own| Explanation {
         weight: libm::exp(own.score - most) / sum,
@@ -209,6 +214,13 @@ fn living(
         terms: own.terms,
     });
     listed.filter(|own| own.weight >= least).collect()
+}
+
+/// Causes in the order of the vocabulary: the key of a set.
+fn sorted(causes: impl Iterator<Item = Cause>) -> Vec<Cause> {
+    let mut causes: Vec<Cause> = causes.collect();
+    causes.sort();
+    causes
 }
 
 /// Explanations with their log posterior, up to a constant, the most probable first.

@@ -1,13 +1,13 @@
 //! This file is the explanations of a recording and what they say of a cause together.
 
 use super::score::bends_from;
+use super::sorted;
 use crate::cause::Cause;
 use crate::problem::Term;
 use crate::rules::{AS_ONE, NAMED, OFFERED, SUSPECTED};
 use rigproof_model::effects::facts;
 use rigproof_model::effects::facts::Shapes;
 use rigproof_spec::effect::Mechanism;
-use std::collections::BTreeSet;
 
 /// One explanation: a set of terms on top of the nominal model.
 #[derive(Clone, Debug)]
@@ -65,8 +65,8 @@ impl Explanations {
                 },
                 false => own.cause,
             });
-            let wanted: BTreeSet<Cause> = wanted.collect();
-            let has = |own: &Explanation| own.terms.iter().map(|term| term.cause).collect();
+            let wanted = sorted(wanted);
+            let has = |own: &Explanation| sorted(own.terms.iter().map(|term| term.cause));
             let plainer = self.living.iter().position(|own| wanted == has(own));
             if let Some(place) = plainer {
                 let own = self.living.remove(place);
@@ -121,9 +121,10 @@ impl Explanations {
             let those = those.filter(|own| other.is_none_or(|other| own.holds(*other)));
             those.map(|own| own.weight).sum()
         };
+        let without = sum(false, None);
         let alike = rivals.iter().filter(|own| leading.is_as(own, cause));
         let alike: Vec<&&Explanation> = alike.collect();
-        if sum(false, None) < OFFERED && alike.is_empty() {
+        if without < OFFERED && alike.is_empty() {
             return Vec::new();
         }
         let mut instead: Vec<Cause> = Vec::new();
@@ -132,7 +133,7 @@ impl Explanations {
                 instead.push(term.cause);
             }
         }
-        let odds = sum(false, None) / sum(true, None).max(f64::MIN_POSITIVE);
+        let odds = without / sum(true, None).max(f64::MIN_POSITIVE);
         let weight = |other: &Cause| sum(false, Some(other)) - odds * sum(true, Some(other));
         let is_as = |other: &Cause| alike.iter().any(|own| own.holds(*other));
         instead.retain(|other| weight(other) >= OFFERED || is_as(other));

@@ -39,8 +39,6 @@ pub struct Fitted {
     columns: Vec<Column>,
     /// One over the length of each column over all blocks.
     scale: Vec<f64>,
-    /// The precision of the coefficient of each column without the recording.
-    ridge: Vec<f64>,
     /// The whitened target on usable rows. Explanations without a fixed effort share it.
     target: Column,
     /// The driving effort that reaches the plant, row by row, before any gain of the force sensor.
@@ -73,7 +71,6 @@ impl Fitted {
             nuisance: free.len(),
             columns: Vec::new(),
             scale: Vec::new(),
-            ridge: Vec::new(),
             target,
             acting: folds.driving.clone(),
             gains: Vec::new(),
@@ -237,6 +234,7 @@ impl Fitted {
         dot(&left, &left)
     }
 
+    /// Adds a column; `ridge` is the precision of its coefficient without the recording.
     fn take_in(&mut self, folds: &Folds, ridge: f64, column: Column) {
         let size = self.columns.len();
         let with_target = folds.dots(&column, &self.target);
@@ -263,7 +261,6 @@ impl Fitted {
         });
         self.parts = parts.collect();
         self.whole = self.whole.with(scaled(whole));
-        self.ridge.push(ridge);
         self.columns.push(column);
     }
 
@@ -281,7 +278,6 @@ impl Fitted {
         self.whole = self.whole.without(index)?;
         self.columns.remove(index);
         self.scale.remove(index);
-        self.ridge.remove(index);
         Some(())
     }
 
@@ -348,3 +344,38 @@ fn raised(mut own: DVector<f64>, by: f64) -> DVector<f64> {
 
 /// The ridge, relative to columns of length 1. No recording determines a coefficient this weakly.
 const RIDGE: f64 = 1e-8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plants::five_bar::recorded::{problem, short_run};
+    use crate::plants::five_bar::run::at;
+    use rigproof_spec::effect::Mechanism;
+    use rigproof_spec::joint::Joint;
+
+    #[test]
+    fn a_fit_that_a_term_leaves_is_the_fit_of_the_others() {
+        let run = short_run();
+        let problem = problem(&run);
+        let folds = Folds::of(&problem);
+        let terms = [Joint::A, Joint::B, Joint::C].map(|joint| {
+            problem
+                .whole_term(at(Mechanism::Viscous, joint), &[])
+                .unwrap()
+        });
+        let bare = Fitted::bare(&folds, &problem.target.white, &[]);
+        let fewer = bare.of(&folds, &terms).without(&folds, 1).unwrap();
+        let anew = bare.of(&folds, &[terms[0].clone(), terms[2].clone()]);
+        assert!(fewer.causes().eq(anew.causes()));
+        for (own, other) in [
+            (&fewer.coefficients, &anew.coefficients),
+            (&fewer.losses, &anew.losses),
+        ] {
+            assert_eq!(own.len(), other.len());
+            let pairs = own.iter().zip(other);
+            for (own, other) in pairs {
+                assert!((own - other).abs() < 1e-9 * other.abs(), "{own} {other}");
+            }
+        }
+    }
+}

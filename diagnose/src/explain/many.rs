@@ -281,6 +281,7 @@ impl Round {
             round: self,
             problem,
         };
+        // What is below the rounding of the sum of all weights is not kept.
         let met = walk::met(&sets, &start, &self.reachable(problem, &start));
         living(problem, self.folds.count(), met, noise, f64::EPSILON)
     }

@@ -2,11 +2,11 @@
 //!
 //! Where several places lack something, thousands of sets may explain a recording about equally
 //! well. A Markov chain over sets visits each as often as it is probable (Madigan and York,
-//! International Statistical Review 63, 1995), so what it never visits hardly counts. Those that it
-//! visited are then weighed by their posterior, which has no error of sampling.
+//! International Statistical Review 63, 1995), so what it never meets hardly counts. Those that it met
+//! are then weighed by their posterior, which has no error of sampling.
 
-use super::Judged;
 use super::fitted::Fitted;
+use super::{Judged, sorted};
 use crate::cause::Cause;
 use crate::problem::Term;
 use crate::rules::{WALK_STEPS, WALKS};
@@ -159,12 +159,6 @@ fn after<'a>(now: &'a Fitted, (goes, comes): Step<'a>) -> impl Iterator<Item = C
     stay.map(|(_, own)| own).chain(comes.map(|term| term.cause))
 }
 
-fn sorted(causes: impl Iterator<Item = Cause>) -> Vec<Cause> {
-    let mut causes: Vec<Cause> = causes.collect();
-    causes.sort();
-    causes
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -224,11 +218,9 @@ mod tests {
             .map(|(term, weight)| Tried { term, weight })
             .collect();
         let found = met(&toy, &(0.0, toy.bare.clone()), &tried);
-        let sets = found.iter().map(|own| {
-            let mut causes: Vec<Cause> = own.terms.iter().map(|term| term.cause).collect();
-            causes.sort();
-            causes
-        });
+        let sets = found
+            .iter()
+            .map(|own| sorted(own.terms.iter().map(|term| term.cause)));
         let mut sets: Vec<Vec<Cause>> = sets.collect();
         sets.sort();
         let [a, b, c] = causes;

@@ -19,7 +19,7 @@ rules! {
     A_NUMBER: f64 = 2.4, "ln odds", DRIVEN;
     /// Prior odds of a mechanism, in natural logarithms, from those that models leave out most often to the rarest. Each mechanism says which of these it has.
     USUAL_ODDS: [f64; 6] = [-3.2, -4.0, -4.8, -5.6, -6.4, -8.0], "ln odds", DRIVEN;
-    /// Two explanations with one mechanism at two places count as one if their odds differ by no more than this, which is rounding between places that move alike.
+    /// Two explanations count as one if their odds differ by no more than this, which is rounding between places that move alike, and between causes that no motion tells apart.
     AS_ONE: f64 = 0.01, "ln odds", REASON;
     /// The least weight of an explanation that is listed.
     LISTED: f64 = 1e-4, "share", DRIVEN;

@@ -237,7 +237,9 @@ fn check_numbers(effect: &JointEffect) -> Result<(), ModelError> {
                 Range::AboveZero if *value <= 0.0 => "above 0",
                 Range::NotBelowZero if *value < 0.0 => "0 or more",
                 Range::Part if !(0.0..=1.0).contains(value) => "from 0 to 1",
-                _ => continue,
+                Range::Any | Range::AboveZero | Range::NotBelowZero | Range::Part | Range::Sign => {
+                    continue;
+                }
             }
         };
         return Err(ModelError::EffectValue {
