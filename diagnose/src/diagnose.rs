@@ -16,9 +16,9 @@ use crate::cause::{Cause, Place};
 use crate::evidence::intervals;
 use crate::explain::{Explanations, explain, explain_many};
 use crate::filter::usable_rms;
-use crate::plant::{At, Plant, Run};
+use crate::plant::{At, Plant, Run, Shown};
 use crate::problem::{Problem, Term};
-use crate::report::Report;
+use crate::report::{FitReport, Report};
 use crate::rules::{EXPLAINED_LEFT, FEWEST_WINDOWS, FLOOR_RATIO, HOLD_OUT_SHARE};
 use crate::scatter::{Trials, left_over};
 use crate::selection::{Selection, refs};
@@ -189,7 +189,7 @@ pub fn diagnose<P: Plant>(
     }
     bound(&problem, &mut selection, &numbers);
     options.watch.enters(Stage::Show);
-    Stand {
+    let stand = Stand {
         plant,
         problem: &problem,
         selection: &selection,
@@ -201,8 +201,19 @@ pub fn diagnose<P: Plant>(
         options,
         trials: trials.as_ref().map(|(trials, _)| trials),
         explanations: &explanations,
+    };
+    let shown = P::shown(&stand, &numbers);
+    let doubted = refuted(&shown).then(|| selection.at_most_suspected());
+    Stand {
+        selection: doubted.as_ref().unwrap_or(&selection),
+        ..stand
     }
-    .report(&numbers)
+    .report(shown, &numbers)
+}
+
+/// Whether what is named predicts the held-out part worse.
+fn refuted<D>(shown: &Shown<D>) -> bool {
+    shown.fit.as_ref().is_some_and(FitReport::is_refuted)
 }
 
 /// The mechanisms that are named on top of the nominal terms.

@@ -7,7 +7,7 @@ mod weigh;
 use crate::cause::Cause;
 use crate::problem::{Problem, Term};
 use crate::regression::{Blocks, Fit, fit};
-use crate::rules::{FLOOR_RATIO, FLOOR_SIGMAS, WINDOWS_A_FREEDOM};
+use crate::rules::{FLOOR_RATIO, FLOOR_SIGMAS, SUSPECTED, WINDOWS_A_FREEDOM};
 
 pub(crate) use onset::{centred, change_with_onset, onset_interval};
 pub(crate) use refine::{best_variant, refined};
@@ -63,6 +63,15 @@ pub fn floor_limit(problem: &Problem) -> f64 {
 }
 
 impl Selection {
+    /// The same with nothing named.
+    pub fn at_most_suspected(&self) -> Selection {
+        let mut own = self.clone();
+        for found in &mut own.found {
+            found.probability = found.probability.min(SUSPECTED);
+        }
+        own
+    }
+
     /// Removes mechanisms and fits the rest again.
     pub fn withdraw(&mut self, problem: &Problem, causes: &[Cause]) {
         self.found.retain(|f| !causes.contains(&f.term.cause));

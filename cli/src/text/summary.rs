@@ -188,6 +188,7 @@ fn error(report: &Report) -> Option<String> {
         None => ("fitted data", fit.train),
     };
     let outcome = match fit.improved || !report.changes_the_model() {
+        _ if fit.is_refuted() => "; with what is suspected every prediction comes out worse",
         true => "",
         false => "; it did not improve: do not use this calibration",
     };

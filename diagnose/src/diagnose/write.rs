@@ -87,8 +87,8 @@ pub struct Stand<'a, P: Plant> {
 }
 
 impl<P: Plant> Stand<'_, P> {
-    /// The report; `intervals` are those of the selection.
-    pub(crate) fn report(&self, intervals: &Intervals) -> Diagnosis<P> {
+    /// The report of what is shown; `intervals` are those of the selection.
+    pub(crate) fn report(&self, shown: Shown<P>, intervals: &Intervals) -> Diagnosis<P> {
         let (problem, selection) = (self.problem, self.selection);
         let all = self.rivals();
         let mut rivals: Vec<Vec<String>> = all
@@ -105,7 +105,7 @@ impl<P: Plant> Stand<'_, P> {
             calibration,
             fit,
             curves,
-        } = P::shown(self, intervals);
+        } = shown;
         // Composed variants are not simulated yet.
         let is_plain = !selection
             .found
