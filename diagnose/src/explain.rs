@@ -167,7 +167,19 @@ impl Round {
             let mut terms = own.terms.iter();
             judge.all_matter(folds, bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
-        let judged = possible.map(|own| Judged::of(judge.score(problem, folds, own), own));
+        let mut possible: Vec<&Fitted> = possible.collect();
+        let effort = folds.count() * (problem.effort_size / noise).powi(2);
+        let least = EXPLAINED_LEFT * EXPLAINED_LEFT * bare.left().min(effort);
+        let is_sound = |own: &&Fitted| !own.is_another_unit(problem);
+        if possible
+            .iter()
+            .any(|own| is_sound(own) && own.left() < least)
+        {
+            possible.retain(is_sound);
+        }
+        let judged = possible
+            .iter()
+            .map(|own| Judged::of(judge.score(problem, folds, own), own));
         living(problem, folds.count(), judged.collect(), noise, LISTED)
     }
 }

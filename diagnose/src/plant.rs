@@ -326,6 +326,13 @@ pub trait Run: Debug + Send + Sync {
         coefficients.to_vec()
     }
 
+    /// Whether a cause with these coefficients is no plant's: the description has another unit or
+    /// sign than the recording.
+    fn is_another_unit(&self, cause: Cause, coefficients: &[f64]) -> bool {
+        let _ = (cause, coefficients);
+        false
+    }
+
     /// The coefficients of the columns from the linear parameters: the inverse of [`Run::linear`].
     fn coefficients(&self, mechanism: Mechanism, parameters: &[f64]) -> Vec<f64> {
         let _ = mechanism;

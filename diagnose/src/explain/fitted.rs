@@ -4,7 +4,7 @@
 use super::factor::Factor;
 use super::folds::{Column, Folds, of_cell};
 use crate::cause::Cause;
-use crate::problem::{Kept, Rows, Term, add};
+use crate::problem::{Kept, Problem, Rows, Term, add};
 use crate::regression::dot;
 use nalgebra::{DMatrix, DVector};
 use rigproof_model::effects::{Form, OfSensor, form};
@@ -184,6 +184,12 @@ impl Fitted {
             first
         };
         self.terms.iter().map(&mut own).collect()
+    }
+
+    /// Whether a coefficient says that the description has another unit or sign than the recording.
+    pub fn is_another_unit(&self, problem: &Problem) -> bool {
+        let mut own = self.terms.iter().zip(self.by_term());
+        own.any(|(term, own)| problem.run.is_another_unit(term.cause, own))
     }
 
     /// The residual of every row when the coefficients come from all usable rows; 0 in the others.

@@ -4,7 +4,7 @@
 use super::columns::is_of_brake;
 use super::from_rig;
 use super::inertia::Inertia;
-use super::run::JointRun;
+use super::run::{JointRun, PlantKind};
 use crate::align::Fault;
 use crate::cause::{Cause, Scales};
 use crate::evidence::{Intervals, coefficients_by_term, intervals};
@@ -31,6 +31,21 @@ pub fn without_brake(rig: &Rig, run: &JointRun) -> Option<Fault> {
             effect.cause.mechanism.name()
         ),
     })
+}
+
+/// Whether an axis that lacks nothing else would have another unit or sign of its drive, of its
+/// position or of its inertia.
+pub fn is_another_unit(run: &JointRun, cause: Cause, coefficients: &[f64]) -> bool {
+    let (Some(own), PlantKind::Axis) = (coefficients.first(), run.plant) else {
+        return false;
+    };
+    let (times, most) = match (cause.mechanism, run.inertia) {
+        // Shares of the effort and of the motion that were described.
+        (Mechanism::GainError | Mechanism::EncoderScale, _) => (1.0 + own, ANOTHER_UNIT),
+        (Mechanism::AddedInertia, Inertia::Known(stated)) => (1.0 + own / stated, ANOTHER_INERTIA),
+        _ => return false,
+    };
+    !(1.0 / ANOTHER_UNIT..most).contains(&times)
 }
 
 /// A wrong sign or unit of the drive, shown by an impossible gain.

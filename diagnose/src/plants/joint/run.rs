@@ -4,7 +4,7 @@
 use super::inertia::Inertia;
 use super::joined::over_parts;
 use super::servo::Servoed;
-use super::{columns, shapes};
+use super::{columns, mistaken, shapes};
 use crate::align::band_hz;
 use crate::candidates::standard_shapes;
 use crate::cause::{Cause, Place};
@@ -406,6 +406,10 @@ impl Run for JointRun {
 
     fn is_linearised(&self) -> bool {
         true
+    }
+
+    fn is_another_unit(&self, cause: Cause, coefficients: &[f64]) -> bool {
+        mistaken::is_another_unit(self, cause, coefficients)
     }
 
     fn linear(&self, mechanism: Mechanism, coefficients: &[f64]) -> Vec<f64> {
