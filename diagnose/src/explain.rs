@@ -33,7 +33,7 @@ use std::sync::Arc;
 
 /// Explains a recording on top of the terms of its nominal model.
 ///
-/// The noise of a round of search is what the best explanation of the round before leaves. Where a
+/// The noise of a round of search is what the most probable explanation of the round before leaves. Where a
 /// round names nothing although it found what leaves much less, its noise was unexplained physics,
 /// and another follows. The leading explanations of a round compete in the next one.
 pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
@@ -112,6 +112,8 @@ impl Round {
             changed.retain(|own| !begun.iter().any(|other| own.is_like(other)));
         }
         all.extend(begun);
+        let all = ranked(problem, &folds, &judge, all).into_iter();
+        let all = all.map(|(_, own)| own).collect();
         Round {
             folds,
             bare,
@@ -128,29 +130,29 @@ impl Round {
         Some((best.terms.first()?.cause, share))
     }
 
-    fn predicts_best(&self) -> Option<&Fitted> {
-        self.all.iter().min_by(|a, b| a.left().total_cmp(&b.left()))
+    fn most_probable(&self) -> Option<&Fitted> {
+        self.all.first()
     }
 
     /// The terms of the leading explanations without an onset, which stand first.
     fn leading(&self) -> Vec<Vec<Term>> {
         let from_start = |own: &&Fitted| own.terms.iter().all(|term| term.onset_s.is_none());
-        let best = self.predicts_best().into_iter();
-        let leading = best.chain(self.all.iter().take(BEAM)).filter(from_start);
+        let leading = self.all.iter().filter(from_start).take(BEAM);
         leading.map(|own| own.terms.clone()).collect()
     }
 
-    /// What the best explanation leaves of the effort. The median block sets its level, so that a
+    /// What the most probable explanation leaves of the effort. The one that leaves least is often one
+    /// of the thousands of larger sets, by chance. The median block sets its level, so that a
     /// disturbance in a few blocks does not count as noise everywhere.
     fn leaves(&self, problem: &Problem, nominal: &[Term]) -> f64 {
-        let best = self.predicts_best().map_or(&[][..], |own| &own.terms);
+        let best = self.most_probable().map_or(&[][..], |own| &own.terms);
         let terms: Vec<&Term> = nominal.iter().chain(best).collect();
         let residual = fit(problem, &terms, &Blocks::new(problem)).residual;
         self.folds.typical(&residual)
     }
 
     fn rows_a_sample(&self, problem: &Problem) -> f64 {
-        let best = self.predicts_best();
+        let best = self.most_probable();
         let residual = best.map(|own| own.residual(&self.folds));
         discrepancy::rows_a_sample(problem, &self.folds, &residual.unwrap_or_default())
     }
