@@ -13,7 +13,7 @@ pub(crate) mod write;
 
 use crate::align::Fault;
 use crate::cause::{Cause, Place};
-use crate::evidence::intervals;
+use crate::evidence::{Intervals, intervals};
 use crate::explain::{Explanations, explain, explain_many};
 use crate::filter::usable_rms;
 use crate::plant::{At, Plant, Run, Shown};
@@ -180,13 +180,7 @@ pub fn diagnose<P: Plant>(
         (selection, explanations) = named(&mut problem, terms);
         withdrawn.clear();
     }
-    let mut numbers = intervals(&problem, &selection);
-    let untenable = untenable(&problem, &selection, &numbers);
-    if !untenable.is_empty() {
-        selection.withdraw(&problem, &untenable);
-        withdrawn.extend(untenable);
-        numbers = intervals(&problem, &selection);
-    }
+    let numbers = tenable(&problem, &mut selection, &mut withdrawn);
     bound(&problem, &mut selection, &numbers);
     options.watch.enters(Stage::Show);
     let stand = Stand {
@@ -209,6 +203,18 @@ pub fn diagnose<P: Plant>(
         ..stand
     }
     .report(shown, &numbers)
+}
+
+/// The numbers of what can be upheld; the rest is withdrawn.
+fn tenable(problem: &Problem, selection: &mut Selection, withdrawn: &mut Vec<Cause>) -> Intervals {
+    let numbers = intervals(problem, selection);
+    let untenable = untenable(problem, selection, &numbers);
+    if untenable.is_empty() {
+        return numbers;
+    }
+    selection.withdraw(problem, &untenable);
+    withdrawn.extend(untenable);
+    intervals(problem, selection)
 }
 
 /// Whether what is named predicts the held-out part worse.
