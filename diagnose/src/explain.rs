@@ -95,25 +95,22 @@ impl Round {
             tried: &tried,
         };
         let mut all = beam.search(exchanges, known);
-        let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
-        let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
         let late = Late {
             problem,
             folds: &folds,
             judge: &judge,
             bare: &bare,
         };
-        let begun = late.found(&leading, &tried);
+        let begun = late.found(&all, &tried);
         let mut changed = Vec::new();
         // The first round only says what is noise.
         if !found.is_empty() {
-            let leading = [leading, begun.clone()].concat();
+            let leading = [all.clone(), begun.clone()].concat();
             changed = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
             changed.retain(|own| !begun.iter().any(|other| own.is_like(other)));
         }
         all.extend(begun);
-        let all = ranked(problem, &folds, &judge, all).into_iter();
-        let all = all.map(|(_, own)| own).collect();
+        let all = beam.by_score(all).into_iter().map(|(_, own)| own).collect();
         Round {
             folds,
             bare,
@@ -235,16 +232,6 @@ fn sorted(causes: impl Iterator<Item = Cause>) -> Vec<Cause> {
     let mut causes: Vec<Cause> = causes.collect();
     causes.sort();
     causes
-}
-
-/// Explanations with their log posterior, up to a constant, the most probable first.
-fn ranked(problem: &Problem, folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
-    let scored = all
-        .into_iter()
-        .map(|own| (judge.score(problem, folds, &own), own));
-    let mut scored: Vec<(f64, Fitted)> = scored.collect();
-    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
-    scored
 }
 
 /// The mechanisms in every shape of the grid: those that the nominal model does not leave open, or

@@ -420,17 +420,6 @@ pub struct FitReport {
     pub drift: Option<String>,
 }
 
-impl FitReport {
-    /// Whether the held-out part is predicted worse with what is named than without it: as a whole,
-    /// and from states within it over every horizon. Such a state does not hold how far a part has
-    /// bent, so that over horizons alone a compliance is refuted too.
-    pub fn is_refuted(&self) -> bool {
-        let held_out = self.horizon.iter().filter(|own| own.part == HELD_OUT_PART);
-        let mut worse = held_out.map(|own| own.after.is_nan() || own.after > own.before);
-        !self.improved && worse.clone().count() > 0 && worse.all(|own| own)
-    }
-}
-
 /// An error before and after.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct BeforeAfter {

@@ -141,7 +141,7 @@ impl Beam<'_> {
     }
 
     /// Explanations with their log posterior, the most probable first.
-    fn by_score(&self, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
+    pub fn by_score(&self, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
         let mut all: Vec<(f64, Fitted)> =
             all.into_iter().map(|own| (self.score(&own), own)).collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -1,6 +1,6 @@
 //! This file is the verdict of a diagnosis, and what it says of the model.
 
-use super::{EffectReport, Report};
+use super::{EffectReport, FitReport, HELD_OUT_PART, Report};
 use crate::rules::NAMED;
 use rigproof_spec::effect::Mechanism;
 use serde::Serialize;
@@ -71,5 +71,63 @@ impl Report {
             Verdict::Explained => !self.changes_the_model(),
             _ => false,
         }
+    }
+}
+
+impl FitReport {
+    /// Whether the held-out part is predicted worse with what is named than without it: as a whole,
+    /// and from states within it over every horizon. Such a state does not hold how far a part has
+    /// bent, so that over horizons alone a compliance is refuted too.
+    pub fn is_refuted(&self) -> bool {
+        let held_out = self.horizon.iter().filter(|own| own.part == HELD_OUT_PART);
+        let mut worse = held_out.map(|own| own.after.is_nan() || own.after > own.before);
+        !self.improved && worse.clone().count() > 0 && worse.all(|own| own)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::{BeforeAfter, Horizon};
+
+    /// A report whose held-out error grows by `whole` times, and over each horizon by these.
+    fn fit(whole: f64, horizons: &[f64]) -> FitReport {
+        let errors = |times: f64| BeforeAfter {
+            before: 1.0,
+            after: times,
+            nrmse_before: 1.0,
+            nrmse_after: times,
+        };
+        let horizon = |times: &f64| Horizon {
+            horizon_s: 0.1,
+            part: HELD_OUT_PART,
+            unit: "rad".to_owned(),
+            before: 1.0,
+            after: *times,
+            tip_before_mm: None,
+            tip_after_mm: None,
+        };
+        FitReport {
+            protocol: String::new(),
+            unit: "rad".to_owned(),
+            train: errors(0.1),
+            held_out: Some(errors(whole)),
+            held_out_without_refit: None,
+            held_out_from_rest: None,
+            horizon: horizons.iter().map(horizon).collect(),
+            recovered_share: 0.0,
+            improved: whole < 1.0,
+            agreement: None,
+            drift: None,
+        }
+    }
+
+    #[test]
+    fn names_are_refuted_where_every_prediction_is_worse() {
+        assert!(fit(500.0, &[5.0, 84.0]).is_refuted());
+        assert!(fit(f64::NAN, &[f64::NAN]).is_refuted());
+        assert!(!fit(0.3, &[5.0, 84.0]).is_refuted());
+        assert!(!fit(2.0, &[1.5, 0.7]).is_refuted());
+        assert!(!fit(2.0, &[]).is_refuted());
     }
 }

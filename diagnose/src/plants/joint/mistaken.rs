@@ -233,3 +233,40 @@ fn negative_drag(problem: &Problem, selection: &Selection, intervals: &Intervals
         ),
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::recorded::{NOMINAL, exact_axis, exact_bench};
+    use super::*;
+
+    #[test]
+    fn another_unit_is_a_gain_a_scale_or_an_inertia_that_no_axis_has() {
+        let mut axis = exact_axis(NOMINAL, 300, true);
+        axis.inertia = Inertia::Known(2.0);
+        let is_odd = |run: &JointRun, mechanism, number: f64| {
+            is_another_unit(run, Cause::of(mechanism), &[number])
+        };
+        let cases = [
+            (Mechanism::GainError, -0.5, false),
+            (Mechanism::GainError, -0.95, true),
+            (Mechanism::EncoderScale, -1.3, true),
+            (Mechanism::AddedInertia, -1.9, true),
+            (Mechanism::AddedInertia, 20.0, false),
+            (Mechanism::Viscous, -9.0, false),
+        ];
+        for (mechanism, number, odd) in cases {
+            assert_eq!(
+                is_odd(&axis, mechanism, number),
+                odd,
+                "{mechanism:?} {number}"
+            );
+        }
+        axis.inertia = Inertia::Unknown(2.0);
+        assert!(!is_odd(&axis, Mechanism::AddedInertia, -9.0));
+        assert!(!is_odd(
+            &exact_bench(NOMINAL, 300),
+            Mechanism::GainError,
+            -0.95
+        ));
+    }
+}
