@@ -33,7 +33,7 @@ use std::sync::Arc;
 
 /// Explains a recording on top of the terms of its nominal model.
 ///
-/// The noise of a round of search is what the most probable explanation of the round before leaves. Where a
+/// The noise of a round of search is what the best explanation of the round before leaves. Where a
 /// round names nothing although it found what leaves much less, its noise was unexplained physics,
 /// and another follows. The leading explanations of a round compete in the next one.
 pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
@@ -95,22 +95,23 @@ impl Round {
             tried: &tried,
         };
         let mut all = beam.search(exchanges, known);
+        let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
+        let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
         let late = Late {
             problem,
             folds: &folds,
             judge: &judge,
             bare: &bare,
         };
-        let begun = late.found(&all, &tried);
+        let begun = late.found(&leading, &tried);
         let mut changed = Vec::new();
         // The first round only says what is noise.
         if !found.is_empty() {
-            let leading = [all.clone(), begun.clone()].concat();
+            let leading = [leading, begun.clone()].concat();
             changed = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
             changed.retain(|own| !begun.iter().any(|other| own.is_like(other)));
         }
         all.extend(begun);
-        let all = beam.by_score(all).into_iter().map(|(_, own)| own).collect();
         Round {
             folds,
             bare,
@@ -127,29 +128,29 @@ impl Round {
         Some((best.terms.first()?.cause, share))
     }
 
-    fn most_probable(&self) -> Option<&Fitted> {
-        self.all.first()
+    fn predicts_best(&self) -> Option<&Fitted> {
+        self.all.iter().min_by(|a, b| a.left().total_cmp(&b.left()))
     }
 
     /// The terms of the leading explanations without an onset, which stand first.
     fn leading(&self) -> Vec<Vec<Term>> {
         let from_start = |own: &&Fitted| own.terms.iter().all(|term| term.onset_s.is_none());
-        let leading = self.all.iter().filter(from_start).take(BEAM);
+        let best = self.predicts_best().into_iter();
+        let leading = best.chain(self.all.iter().take(BEAM)).filter(from_start);
         leading.map(|own| own.terms.clone()).collect()
     }
 
-    /// What the most probable explanation leaves of the effort. The one that leaves least is often one
-    /// of the thousands of larger sets, by chance. The median block sets its level, so that a
+    /// What the best explanation leaves of the effort. The median block sets its level, so that a
     /// disturbance in a few blocks does not count as noise everywhere.
     fn leaves(&self, problem: &Problem, nominal: &[Term]) -> f64 {
-        let best = self.most_probable().map_or(&[][..], |own| &own.terms);
+        let best = self.predicts_best().map_or(&[][..], |own| &own.terms);
         let terms: Vec<&Term> = nominal.iter().chain(best).collect();
         let residual = fit(problem, &terms, &Blocks::new(problem)).residual;
         self.folds.typical(&residual)
     }
 
     fn rows_a_sample(&self, problem: &Problem) -> f64 {
-        let best = self.most_probable();
+        let best = self.predicts_best();
         let residual = best.map(|own| own.residual(&self.folds));
         discrepancy::rows_a_sample(problem, &self.folds, &residual.unwrap_or_default())
     }
@@ -232,6 +233,16 @@ fn sorted(causes: impl Iterator<Item = Cause>) -> Vec<Cause> {
     let mut causes: Vec<Cause> = causes.collect();
     causes.sort();
     causes
+}
+
+/// Explanations with their log posterior, up to a constant, the most probable first.
+fn ranked(problem: &Problem, folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
+    let scored = all
+        .into_iter()
+        .map(|own| (judge.score(problem, folds, &own), own));
+    let mut scored: Vec<(f64, Fitted)> = scored.collect();
+    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+    scored
 }
 
 /// The mechanisms in every shape of the grid: those that the nominal model does not leave open, or

@@ -9,7 +9,7 @@ use super::score::{Judge, is_impossible};
 use crate::candidates::is_periodic;
 use crate::cause::Cause;
 use crate::problem::{Kept, Key, Problem, Term, key};
-use crate::rules::{BEAM, KEPT, PEAKS_APART, SIZES};
+use crate::rules::{BEAM, KEPT, MOST_TERMS, PEAKS_APART};
 use core::f64::consts::TAU;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,7 +34,7 @@ pub struct Beam<'a> {
 type Best = BTreeMap<Names, (f64, Fitted)>;
 
 impl Beam<'_> {
-    /// Every explanation that was kept, one for each set of causes, the most probable first. The
+    /// Every explanation that was kept, one for each set of causes, the best evidence first. The
     /// leading ones of each size have refined shapes.
     ///
     /// `known` are explanations that compete in any case. `exchanges` counts the rounds in which
@@ -44,20 +44,14 @@ impl Beam<'_> {
         self.keep(&mut best, [self.bare.clone()].into_iter().chain(known));
         let mut living = vec![self.bare.clone()];
         let mut extended = BTreeSet::new();
-        for size in 1.. {
+        for size in 1..=MOST_TERMS {
             // All single causes are kept. A cause that begins late may explain nothing when it is
             // fitted to the whole recording.
             let most = if size == 1 { usize::MAX } else { BEAM + KEPT };
             extended.extend(living.iter().map(exact));
             let (near, far) = self.children(&living, most);
-            let before = highest(best.values());
-            let near = self.by_score(near);
-            let gains = highest(&near) > before;
-            living = near.into_iter().map(|(_, own)| own).collect();
+            living = self.by_evidence(near);
             self.keep(&mut best, living.iter().cloned().chain(far));
-            if size >= SIZES && !gains {
-                break;
-            }
         }
         for _ in 0..exchanges {
             let mut leading = ranked(&best);
@@ -71,10 +65,10 @@ impl Beam<'_> {
     /// Keeps an explanation where it is the best of its causes.
     fn keep(&self, best: &mut Best, all: impl IntoIterator<Item = Fitted>) {
         for own in all {
-            let score = self.score(&own);
+            let evidence = self.judge.evidence(self.folds, &own);
             let names = names(self.problem, own.causes());
-            if best.get(&names).is_none_or(|(other, _)| score > *other) {
-                best.insert(names, (score, own));
+            if best.get(&names).is_none_or(|(other, _)| evidence > *other) {
+                best.insert(names, (evidence, own));
             }
         }
     }
@@ -136,27 +130,16 @@ impl Beam<'_> {
         scored.collect()
     }
 
-    fn score(&self, own: &Fitted) -> f64 {
-        self.judge.score(self.problem, self.folds, own)
-    }
-
-    /// Explanations with their log posterior, the most probable first.
-    pub fn by_score(&self, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
+    fn by_evidence(&self, all: Vec<Fitted>) -> Vec<Fitted> {
+        let evidence = |own: &Fitted| self.judge.evidence(self.folds, own);
         let mut all: Vec<(f64, Fitted)> =
-            all.into_iter().map(|own| (self.score(&own), own)).collect();
+            all.into_iter().map(|own| (evidence(&own), own)).collect();
         all.sort_by(|a, b| b.0.total_cmp(&a.0));
-        all
+        all.into_iter().map(|(_, own)| own).collect()
     }
 }
 
-/// The highest log posterior.
-fn highest<'a>(all: impl IntoIterator<Item = &'a (f64, Fitted)>) -> f64 {
-    all.into_iter()
-        .map(|own| own.0)
-        .fold(f64::NEG_INFINITY, f64::max)
-}
-
-/// The kept explanations, the most probable first.
+/// The kept explanations, the best evidence first.
 fn ranked(best: &Best) -> Vec<&Fitted> {
     let mut all: Vec<&(f64, Fitted)> = best.values().collect();
     all.sort_by(|a, b| b.0.total_cmp(&a.0));

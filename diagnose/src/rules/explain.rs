@@ -41,8 +41,8 @@ rules! {
     EXCHANGES: usize = 2, "rounds", DRIVEN;
     /// Leading explanations whose terms are tried with an onset, beside all explanations of one term.
     LATE: usize = 2, "explanations", REASON;
-    /// Sets of up to so many terms are searched in any case, and larger ones as long as they are more probable than all smaller ones.
-    SIZES: usize = 3, "terms", DRIVEN;
+    /// The most terms of one explanation.
+    MOST_TERMS: usize = 3, "terms", DRIVEN;
     /// An arm: the most terms of its explanation.
     MOST_OF_MANY: usize = 48, "terms", REASON;
     /// An arm: random walks over sets of terms, which find those that are weighed.

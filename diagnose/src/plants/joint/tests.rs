@@ -387,24 +387,3 @@ fn what_is_too_small_to_be_named_is_said_to_be_most_like_it() {
     let [named, ..] = both(&[DRY]);
     assert_eq!(named.report.likest(), None);
 }
-
-#[test]
-fn four_causes_are_named_together() {
-    let left_out: Laws = &[
-        DRY,
-        (Mechanism::ConstantBias, &[0.83]),
-        (Mechanism::Ripple, &[0.71, -0.46, 0.037]),
-        (Mechanism::NonlinearSpring, &[870.0]),
-    ];
-    let rig = axis();
-    let exact = exact_axis(&[NOMINAL, left_out].concat(), 15_300, true);
-    let found = diagnose(&rig, &[&recording(&rig, &exact)], None, &Options::default());
-    let mut names = named(&found);
-    names.sort_unstable();
-    assert_eq!(
-        names,
-        ["constant_bias", "dry_offset", "nonlinear_spring", "ripple"],
-        "{}",
-        found.report.summary
-    );
-}
