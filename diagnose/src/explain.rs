@@ -167,20 +167,28 @@ impl Round {
             let mut terms = own.terms.iter();
             judge.all_matter(folds, bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
-        let mut possible: Vec<&Fitted> = possible.collect();
-        let effort = folds.count() * (problem.effort_size / noise).powi(2);
-        let least = EXPLAINED_LEFT * EXPLAINED_LEFT * bare.left().min(effort);
+        let possible = self.of_one_unit(problem, noise, possible.collect());
+        let judged = possible.into_iter();
+        let judged = judged.map(|own| Judged::of(judge.score(problem, folds, own), own));
+        living(problem, folds.count(), judged.collect(), noise, LISTED)
+    }
+
+    /// The explanations by which the description has the units and signs of the recording, if one of
+    /// them leaves little of the nominal model's residual and of the effort; else all.
+    fn of_one_unit<'a>(
+        &self,
+        problem: &Problem,
+        noise: f64,
+        mut possible: Vec<&'a Fitted>,
+    ) -> Vec<&'a Fitted> {
+        let effort = self.folds.count() * (problem.effort_size / noise).powi(2);
+        let least = EXPLAINED_LEFT * EXPLAINED_LEFT * self.bare.left().min(effort);
         let is_sound = |own: &&Fitted| !own.is_another_unit(problem);
-        if possible
-            .iter()
-            .any(|own| is_sound(own) && own.left() < least)
-        {
+        let explains = |own: &&Fitted| is_sound(own) && own.left() < least;
+        if possible.iter().any(explains) {
             possible.retain(is_sound);
         }
-        let judged = possible
-            .iter()
-            .map(|own| Judged::of(judge.score(problem, folds, own), own));
-        living(problem, folds.count(), judged.collect(), noise, LISTED)
+        possible
     }
 }
 

@@ -187,10 +187,12 @@ fn error(report: &Report) -> Option<String> {
         Some(errors) => ("held-out data", errors),
         None => ("fitted data", fit.train),
     };
-    let outcome = match fit.improved || !report.changes_the_model() {
-        _ if fit.is_refuted() => "; with what is suspected every prediction comes out worse",
-        true => "",
-        false => "; it did not improve: do not use this calibration",
+    let outcome = if fit.is_refuted() {
+        "; with what is suspected every prediction comes out worse"
+    } else if fit.improved || !report.changes_the_model() {
+        ""
+    } else {
+        "; it did not improve: do not use this calibration"
     };
     let text = format!(
         "{} → {} {} on {part}{outcome}",

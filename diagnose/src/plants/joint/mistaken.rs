@@ -45,7 +45,13 @@ pub fn is_another_unit(run: &JointRun, cause: Cause, coefficients: &[f64]) -> bo
         (Mechanism::AddedInertia, Inertia::Known(stated)) => (1.0 + own / stated, ANOTHER_INERTIA),
         _ => return false,
     };
-    !(1.0 / ANOTHER_UNIT..most).contains(&times)
+    !is_of_one_unit(times, most)
+}
+
+/// Whether a number of this many times the described one, and at most of `most` times, has its unit
+/// and sign.
+fn is_of_one_unit(times: f64, most: f64) -> bool {
+    (1.0 / ANOTHER_UNIT..most).contains(&times)
 }
 
 /// A wrong sign or unit of the drive, shown by an impossible gain.
@@ -87,8 +93,7 @@ fn impossible_gain(problem: &Problem, selection: &Selection) -> Option<(usize, f
         .filter(|(own, _)| own.term.cause.scales == Scales::Torque);
     let shares: f64 = shares.filter_map(|(_, shares)| shares.first()).sum();
     let gain = 1.0 + fraction.first()? + shares;
-    let is_possible = (1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&gain);
-    (!is_possible).then_some((index, gain))
+    (!is_of_one_unit(gain, ANOTHER_UNIT)).then_some((index, gain))
 }
 
 /// A found inertia so far from the stated one that the stated one must have another unit.
@@ -103,7 +108,7 @@ pub fn another_inertia(run: &JointRun, problem: &Problem, selection: &Selection)
         (is_inertia && found.term.onset_s.is_none()).then(|| own.first().copied())?
     })?;
     let times = 1.0 + added / stated;
-    if (1.0 / ANOTHER_UNIT..ANOTHER_INERTIA).contains(&times) || !explains(problem, selection) {
+    if is_of_one_unit(times, ANOTHER_INERTIA) || !explains(problem, selection) {
         return None;
     }
     if times < 0.0 {
