@@ -64,9 +64,9 @@ struct Round {
     folds: Folds,
     bare: Fitted,
     all: Vec<Fitted>,
-    /// Those in which a described law changes. They do not say what is noise: with a change of
-    /// every law at hand, some law changes a little in every recording.
-    changed: Vec<Fitted>,
+    /// Those that compete but do not say what is noise: sets of more terms, and those in which a
+    /// described law changes. With all of them at hand, one leaves a little less in every recording.
+    beside: Vec<Fitted>,
 }
 
 impl Round {
@@ -95,8 +95,8 @@ impl Round {
             tried: &tried,
         };
         let mut all = beam.search(exchanges, known);
-        let leading = ranked(problem, &folds, &judge, all.clone()).into_iter();
-        let leading: Vec<Fitted> = leading.map(|(_, own)| own).collect();
+        let ranked = beam.by_score(all.clone());
+        let leading: Vec<Fitted> = ranked.iter().map(|(_, own)| own.clone()).collect();
         let late = Late {
             problem,
             folds: &folds,
@@ -104,19 +104,20 @@ impl Round {
             bare: &bare,
         };
         let begun = late.found(&leading, &tried);
-        let mut changed = Vec::new();
+        let mut beside = Vec::new();
         // The first round only says what is noise.
         if !found.is_empty() {
             let leading = [leading, begun.clone()].concat();
-            changed = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
-            changed.retain(|own| !begun.iter().any(|other| own.is_like(other)));
+            beside = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
+            beside.retain(|own| !begun.iter().any(|other| own.is_like(other)));
+            beside.extend(beam.larger(&ranked));
         }
         all.extend(begun);
         Round {
             folds,
             bare,
             all,
-            changed,
+            beside,
         }
     }
 
@@ -161,9 +162,9 @@ impl Round {
             folds,
             bare,
             all,
-            changed,
+            beside,
         } = self;
-        let possible = all.iter().chain(changed).filter(|own| {
+        let possible = all.iter().chain(beside).filter(|own| {
             let mut terms = own.terms.iter();
             judge.all_matter(folds, bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });
@@ -241,16 +242,6 @@ fn sorted(causes: impl Iterator<Item = Cause>) -> Vec<Cause> {
     let mut causes: Vec<Cause> = causes.collect();
     causes.sort();
     causes
-}
-
-/// Explanations with their log posterior, up to a constant, the most probable first.
-fn ranked(problem: &Problem, folds: &Folds, judge: &Judge, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
-    let scored = all
-        .into_iter()
-        .map(|own| (judge.score(problem, folds, &own), own));
-    let mut scored: Vec<(f64, Fitted)> = scored.collect();
-    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
-    scored
 }
 
 /// The mechanisms in every shape of the grid: those that the nominal model does not leave open, or

@@ -62,6 +62,34 @@ impl Beam<'_> {
         ranked(&best).into_iter().cloned().collect()
     }
 
+    /// Explanations of more terms than a search tries on everything, as long as one more makes the
+    /// most probable one more probable. `ranked` are those that were kept, the most probable first.
+    pub fn larger(&self, ranked: &[(f64, Fitted)]) -> Vec<Fitted> {
+        let mut most = ranked.first().map_or(0.0, |(score, _)| *score);
+        let full = ranked.iter().map(|(_, own)| own);
+        let full = full.filter(|own| own.terms.len() == MOST_TERMS);
+        let mut living: Vec<Fitted> = full.take(BEAM).cloned().collect();
+        let mut larger = Vec::new();
+        loop {
+            let (near, far) = self.children(&living, BEAM + KEPT);
+            let near = self.by_score(near);
+            match near.first() {
+                Some((score, _)) if *score > most => most = *score,
+                _ => return larger,
+            }
+            living = near.into_iter().map(|(_, own)| own).collect();
+            larger.extend(living.iter().cloned().chain(far));
+        }
+    }
+
+    /// Explanations with their log posterior, up to a constant, the most probable first.
+    pub fn by_score(&self, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
+        let score = |own: &Fitted| self.judge.score(self.problem, self.folds, own);
+        let mut all: Vec<(f64, Fitted)> = all.into_iter().map(|own| (score(&own), own)).collect();
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        all
+    }
+
     /// Keeps an explanation where it is the best of its causes.
     fn keep(&self, best: &mut Best, all: impl IntoIterator<Item = Fitted>) {
         for own in all {
