@@ -91,6 +91,28 @@ def test_bodies_that_none_can_be_are_replaced_by_the_nearest(tmp_path: Path) -> 
     assert not any("nearest" in line for line in done["set"]) and np.allclose(changed, [0.0] * 9 + [0.004], atol=1e-9)
 
 
+def test_friction_that_builds_up_is_held_by_its_level_and_a_spring_joins_that_of_the_joint() -> None:
+    model = mujoco.MjModel.from_xml_string(ARM)
+    model.jnt_stiffness[1], model.qpos_spring[1] = 2.0, 0.3
+    effects = [
+        {"mechanism": "presliding", "joint": "j1", "level": {"value": 0.41, "unit": "N·m"}, "travel": {"value": 0.0019, "unit": "rad"}},
+        {
+            "mechanism": "lugre_bristle",
+            "joint": "j2",
+            "level": {"value": 0.23, "unit": "N·m"},
+            "viscous": {"value": 0.07, "unit": "N·m·s/rad"},
+            "travel": {"value": 0.0031, "unit": "rad"},
+        },
+        {"mechanism": "spring", "joint": "j2", "stiffness": {"value": 6.0, "unit": "N·m/rad"}, "rest": {"value": -0.1, "unit": "rad"}},
+        {"mechanism": "spring", "joint": "j1", "stiffness": {"value": -6.0, "unit": "N·m/rad"}},
+    ]
+    done = own.apply(rigproof.Rig.from_dict({"plant": "chain", "effect": effects}), model)
+    assert np.allclose(model.dof_frictionloss, [0.41, 0.23]) and np.allclose(model.dof_damping, [0.0, 0.07])
+    # The two springs at j2 are one of 8 N·m/rad at rest where their torques cancel.
+    assert np.allclose(model.jnt_stiffness, [0.0, 8.0]) and np.isclose(model.qpos_spring[1], (2.0 * 0.3 - 6.0 * 0.1) / 8.0)
+    assert [line.split(":")[0] for line in done["not_held"]] == ["j1", "j2", "j1"] and "0.0019 rad" in done["not_held"][0]
+
+
 def test_a_public_arms_error_falls_in_mujoco_as_the_report_promises() -> None:
     folder = DATA / "panda"
     if not folder.exists():

@@ -24,13 +24,15 @@ Done = dict[str, list[str]]
 
 def apply(calibration: Any, model: Any, joint: str | int = 0, actuator: str | int = 0, joints: Mapping[str, str] | None = None) -> Done:
     """Sets what MuJoCo can hold of a calibration, and gives `set` and `not_held`, a line each. Nothing stands in for what is not held.
+    Of friction that builds up over a travel the level is set, and the travel is not held.
 
     calibration: a Report, a Rig, or the TOML text of one. model: an MjModel, which is changed.
 
-    Of one joint (`axis`): damping, frictionloss, armature, so that the joint's whole inertia is the calibrated one, and the actuator's gain, or of a position
-    servo its gain, limit and back-EMF. joint, actuator: their names or numbers. These numbers are set, so that a second calibration replaces the first.
+    Of one joint (`axis`): damping, frictionloss, spring, armature, so that the joint's whole inertia is the calibrated one, and the actuator's gain, or of a
+    position servo its gain, limit and back-EMF. joint, actuator: their names or numbers. These numbers are set, so that a second calibration replaces the first.
 
-    Of an arm (`chain`): at each joint damping, frictionloss and armature, of each link mass, centre and inertia, and constant torques in the joint's actuator.
+    Of an arm (`chain`): at each joint damping, frictionloss, spring and armature, of each link mass, centre and inertia, and constant torques in the joint's
+    actuator.
     joints: the model's name of a joint by the rig's, where they differ. These numbers are added to what the model has from its URDF: apply once.
     """
     keys = keys_of(calibration)
@@ -53,9 +55,19 @@ def keys_of(calibration: Any) -> Keys:
     return tomllib.loads(text)
 
 
+# Friction that builds up over a travel, and is Coulomb friction from there on.
+BUILDS_UP = ("presliding", "dahl_bristle", "lugre_bristle")
+
+
 def _friction(effect: Keys, model: Any, dof: int, where: str, done: Done) -> bool:
     """Adds viscous or Coulomb friction; False where the effect is another."""
     number: Keys = effect.get("coefficient") or effect.get("level") or {}
+    if effect["mechanism"] in BUILDS_UP and "onset" not in effect:
+        done["not_held"].append(f"{where}{effect['mechanism']}: MuJoCo has no number for the travel of {effect['travel']['value']:.3g} {effect['travel']['unit']}")
+        _friction({"mechanism": "dry_offset", "level": effect["level"]}, model, dof, where, done)
+        if "viscous" in effect:
+            _friction({"mechanism": "viscous", "coefficient": effect["viscous"]}, model, dof, where, done)
+        return True
     if effect["mechanism"] in ("viscous", "dry_offset") and number["value"] < 0.0:
         done["not_held"].append(f"{where}{effect['mechanism']} {number['value']:.4g} {number['unit']}: MuJoCo holds no friction that drives")
     elif effect["mechanism"] == "viscous" and "onset" not in effect:
@@ -69,6 +81,21 @@ def _friction(effect: Keys, model: Any, dof: int, where: str, done: Done) -> boo
     return True
 
 
+def _spring(effect: Keys, model: Any, joint: int, where: str, done: Done) -> bool:
+    """Adds a spring to that of the joint; False where the effect is another."""
+    if effect["mechanism"] != "spring" or "onset" in effect:
+        return False
+    stiffness, rest = effect["stiffness"]["value"], effect.get("rest", {"value": 0.0})["value"]
+    if stiffness < 0.0:
+        done["not_held"].append(f"{where}spring {stiffness:.4g} {effect['stiffness']['unit']}: MuJoCo holds no spring that pushes away")
+        return True
+    before, place = model.jnt_stiffness[joint], model.jnt_qposadr[joint]
+    model.jnt_stiffness[joint] = before + stiffness
+    model.qpos_spring[place] = (before * model.qpos_spring[place] + stiffness * rest) / max(before + stiffness, 1e-300)
+    done["set"].append(f"{where}stiffness {model.jnt_stiffness[joint]:.4g} {effect['stiffness']['unit']} about {model.qpos_spring[place]:.4g}")
+    return True
+
+
 def _not_held(effect: Keys, where: str, done: Done) -> None:
     since = " from an onset on" if "onset" in effect else ""
     how = "; load_friction(...) works it out at each step" if effect["mechanism"] == "load_friction" and not where else ""
@@ -77,9 +104,10 @@ def _not_held(effect: Keys, where: str, done: Done) -> None:
 
 def _axis(keys: Keys, model: Any, joint: str | int, actuator: Any, done: Done) -> None:
     dof = model.joint(joint).dofadr[0]
-    model.dof_damping[dof] = model.dof_frictionloss[dof] = 0.0
+    own = model.dof_jntid[dof]
+    model.dof_damping[dof] = model.dof_frictionloss[dof] = model.jnt_stiffness[own] = 0.0
     for effect in keys.get("effect", []):
-        if not _friction(effect, model, dof, "", done) and not _gravity(effect, model, dof, done):
+        if not (_friction(effect, model, dof, "", done) or _spring(effect, model, own, "", done) or _gravity(effect, model, dof, done)):
             _not_held(effect, "", done)
     inertia, gain = keys["parameters"]["inertia"], keys["parameters"]["command_gain"]
     kept, model.dof_armature[dof] = model.dof_armature[dof], 0.0
@@ -154,7 +182,7 @@ def _arm(keys: Keys, model: Any, names: Mapping[str, str], done: Done) -> None:
             armature[joint.id] = effect["inertia"]["value"]
         elif law == "constant_bias":
             _bias(effect, model, joint.id, where, done)
-        elif not _friction(effect, model, int(joint.dofadr[0]), where, done):
+        elif not (_friction(effect, model, int(joint.dofadr[0]), where, done) or _spring(effect, model, joint.id, where, done)):
             _not_held(effect, where, done)
     if numbers or armature:
         _bodies_of(model, numbers, armature, done)

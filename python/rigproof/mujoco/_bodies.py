@@ -79,7 +79,7 @@ def nearest(columns: Floats, described: Floats, wanted: Floats, count: int) -> F
     least = [LEAST * max(np.linalg.eigvalsh((PSEUDO @ described[10 * k : 10 * k + 10]).reshape(4, 4))[0], 1e-9) for k in range(count)]
     gram = columns.T @ columns / len(columns)
     # The pull to the described numbers decides only where no effort does.
-    pull, step = 1e-6 * np.trace(gram) / len(gram), 1e-2 * np.trace(gram) / len(gram)
+    pull, step = 1e-6 * np.trace(gram) / len(gram), 1e-3 * np.trace(gram) / len(gram)
     inverse = np.linalg.inv(gram + (pull + step) * whole.T @ whole)
     fixed = gram @ wanted + pull * whole.T @ (whole @ described)
     seen, lag = whole @ described, np.zeros(len(whole))
