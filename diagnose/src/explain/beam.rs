@@ -68,7 +68,7 @@ impl Beam<'_> {
     pub fn larger(&self, ranked: &[(f64, Fitted)]) -> Vec<Fitted> {
         let mut larger = Vec::new();
         let is_full = |own: &&(f64, Fitted)| own.1.terms.len() == MOST_TERMS;
-        let Some((mut most, _)) = ranked.first().filter(is_full) else {
+        let Some(&(mut most, _)) = ranked.first().filter(is_full) else {
             return larger;
         };
         let full = ranked.iter().filter(is_full).take(BEAM);
@@ -197,10 +197,15 @@ pub fn may_join(terms: &[Term], cause: Cause) -> bool {
 /// Whether a term may be added. What is periodic enters with several periods, as far apart as peaks
 /// of a spectrum: a motor cogs by its poles and by its slots.
 pub fn joins(problem: &Problem, terms: &[Term], own: &Kept) -> bool {
-    let (cause, travel) = (own.cause(), problem.run.travel(own.cause().at));
+    let cause = own.cause();
+    let forms: Vec<&Term> = terms.iter().filter(|own| is_form_of(own, cause)).collect();
+    if forms.is_empty() {
+        return true;
+    }
+    let travel = problem.run.travel(cause.at);
     let cycles = |shape: &[f64]| travel / shape.first().unwrap_or(&TAU);
     let is_apart = |other: &Term| (cycles(&other.shape) - cycles(own.shape())).abs() > PEAKS_APART;
-    let mut forms = terms.iter().filter(|own| is_form_of(own, cause));
+    let mut forms = forms.into_iter();
     forms.all(|own| own.cause == cause && is_periodic(cause) && is_apart(own))
 }
 

@@ -42,7 +42,15 @@ const ROUNDS: usize = 24;
 
 /// The position at which an encoder shows this one, m or rad.
 pub fn behind_shown(shown: f64, parameters: &[f64]) -> f64 {
-    (0..ROUNDS).fold(shown, |there, _| shown - shown_too_much(there, parameters))
+    let mut there = shown;
+    for _ in 0..ROUNDS {
+        let before = there;
+        there = shown - shown_too_much(before, parameters);
+        if there == before {
+            break;
+        }
+    }
+    there
 }
 
 #[cfg(test)]
