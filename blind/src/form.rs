@@ -118,7 +118,7 @@ forms! {
     /// Linear spring about a place of its own.
     Anchored: "spring", Joint, [*"stiffness" EffortPerTravel, -"anchor" Travel];
     /// A tether that is slack on this side of a place and a spring beyond it, on the side of its sign.
-    Tether: "tether", Joint, [*"stiffness" EffortPerTravel, -"beyond" Travel];
+    Tether: "joint_stop", Joint, [*"stiffness" EffortPerTravel, -"beyond" Travel];
     /// Cubic spring about the start (Duffing 1918).
     Cubic: "nonlinear_spring", Joint, [*"cubic" EffortPerCubicTravel];
     /// A spring that hardens: `stiffness·q + cubic·q³`.

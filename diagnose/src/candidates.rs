@@ -257,7 +257,7 @@ fn lashes(widths: &[f64], middle: f64) -> Vec<Vec<f64>> {
 }
 
 /// Positions where a stop may begin, from the middle of the travel to near its ends, with its side.
-fn stops(motion: &[Instant]) -> Vec<Vec<f64>> {
+pub fn stops(motion: &[Instant]) -> Vec<Vec<f64>> {
     let [low, high] = ends(motion.iter().map(|now| now.position));
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     let shares = STOP_SHARES.into_iter();

@@ -49,6 +49,9 @@ pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Exp
         round = Round::of(problem, &nominal, noise, rows_a_sample, EXCHANGES, &found);
         let living = round.weighed(problem, noise);
         let names_nothing = living.first().is_none_or(|own| own.terms.is_empty());
+        if names_nothing {
+            round.all.append(&mut round.larger);
+        }
         let least = round.leaves(problem, &nominal).max(problem.floor);
         if !names_nothing || least > EXPLAINED_LEFT * noise {
             break living;
@@ -64,9 +67,11 @@ struct Round {
     folds: Folds,
     bare: Fitted,
     all: Vec<Fitted>,
-    /// Those that compete but do not say what is noise: sets of more terms, and those in which a
-    /// described law changes. With all of them at hand, one leaves a little less in every recording.
-    beside: Vec<Fitted>,
+    /// Sets of more terms. They compete but do not say what is noise: with all of them at hand, one
+    /// leaves a little less in every recording.
+    larger: Vec<Fitted>,
+    /// Those in which a described law changes. They do not say what is noise either.
+    changed: Vec<Fitted>,
 }
 
 impl Round {
@@ -104,20 +109,21 @@ impl Round {
             bare: &bare,
         };
         let begun = late.found(&leading, &tried);
-        let mut beside = Vec::new();
+        let (mut larger, mut changed) = (Vec::new(), Vec::new());
         // The first round only says what is noise.
         if !found.is_empty() {
             let leading = [leading, begun.clone()].concat();
-            beside = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
-            beside.retain(|own| !begun.iter().any(|other| own.is_like(other)));
-            beside.extend(beam.larger(&ranked));
+            changed = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
+            changed.retain(|own| !begun.iter().any(|other| own.is_like(other)));
+            larger = beam.larger(&ranked);
         }
         all.extend(begun);
         Round {
             folds,
             bare,
             all,
-            beside,
+            larger,
+            changed,
         }
     }
 
@@ -162,9 +168,10 @@ impl Round {
             folds,
             bare,
             all,
-            beside,
+            larger,
+            changed,
         } = self;
-        let possible = all.iter().chain(beside).filter(|own| {
+        let possible = all.iter().chain(larger).chain(changed).filter(|own| {
             let mut terms = own.terms.iter();
             judge.all_matter(folds, bare, own) && !terms.any(|term| is_at_an_end(problem, term))
         });

@@ -62,17 +62,17 @@ impl Beam<'_> {
         ranked(&best).into_iter().cloned().collect()
     }
 
-    /// Explanations of more terms than a search tries on everything, as long as the most probable
-    /// one has as many terms as were tried. `ranked` are those that were kept, the most probable
+    /// Explanations of more terms than a search tries on everything, as long as one term more makes
+    /// the most probable one more probable. `ranked` are those that were kept, the most probable
     /// first.
     pub fn larger(&self, ranked: &[(f64, Fitted)]) -> Vec<Fitted> {
+        let mut most = ranked
+            .first()
+            .map_or(f64::NEG_INFINITY, |(score, _)| *score);
+        let full = ranked.iter().map(|(_, own)| own);
+        let full = full.filter(|own| own.terms.len() == MOST_TERMS);
+        let mut living: Vec<Fitted> = full.take(BEAM).cloned().collect();
         let mut larger = Vec::new();
-        let is_full = |own: &&(f64, Fitted)| own.1.terms.len() == MOST_TERMS;
-        let Some(&(mut most, _)) = ranked.first().filter(is_full) else {
-            return larger;
-        };
-        let full = ranked.iter().filter(is_full).take(BEAM);
-        let mut living: Vec<Fitted> = full.map(|(_, own)| own.clone()).collect();
         loop {
             let (near, far) = self.children(&living, BEAM + KEPT);
             let near = self.by_score(near);

@@ -26,7 +26,7 @@ pub(super) const ENTRY: Entry = Entry {
             Family::Position,
             Asked {
                 alone: Alone::Always,
-                five_bar: Where::Nowhere,
+                five_bar: Where::Joints,
             },
             Words {
                 what: "a stop or a tether that pushes it back beyond a position",

@@ -4,7 +4,7 @@
 use super::run::{FiveBarRun, at, joint_at, place};
 use crate::candidates::{
     both_signs, current_limits, fastest, geometric, in_numbers, longest_period, of_a_turn,
-    periodic_part, periods, plays, stribeck_shapes,
+    periodic_part, periods, plays, stops, stribeck_shapes,
 };
 use crate::cause::{Cause, Place};
 use crate::filter::ends;
@@ -245,9 +245,9 @@ pub fn shapes(
         | Shapes::Gap
         | Shapes::OfTravel { .. }
         | Shapes::OfLoad { .. }
-        | Shapes::Stop
         | Shapes::Resonance
         | Shapes::BristleCurve => vec![vec![]],
+        Shapes::Stop => stops(motion),
         Shapes::Anchor => anchors(run),
         own @ (Shapes::None
         | Shapes::Values(_)

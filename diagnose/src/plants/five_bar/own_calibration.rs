@@ -68,6 +68,7 @@ const WITH_SEEDS: &[LeftOut] = &[
     (Ripple, Share(B), &[0.31, -0.17, 0.31]),
     (UnevenFriction, One(A), &[0.061, -0.037, 0.37]),
     (NonlinearSpring, One(C), &[0.071]),
+    (JointStop, One(B), &[2.3, 1.37, 1.0]),
     (BiasDrift, One(A), &[0.31]),
     (DeadTime, One(A), &[0.0237]),
     (Saturation, One(B), &[0.213]),

@@ -338,6 +338,41 @@ fn cogging_with_two_periods_is_a_ripple_with_each_of_them() {
 }
 
 #[test]
+fn four_causes_are_named_together() {
+    let four: Laws = &[
+        DRY,
+        (Mechanism::ConstantBias, &[0.63]),
+        (Mechanism::Ripple, &[0.91, -0.67, 0.11]),
+        (Mechanism::NonlinearSpring, &[17.0]),
+    ];
+    let laws = [&[(Mechanism::Viscous, &[7.3][..])][..], four].concat();
+    let bench = rig("bench", VISCOUS);
+    let recording = recording(&bench, &exact_bench(&laws, 7_650));
+    let options = Options {
+        refit: false,
+        next_experiment: false,
+        ..Options::default()
+    };
+    let diagnosis = diagnose(&bench, &[&recording], None, &options);
+    eprintln!(
+        "{} {:?} {:?}",
+        diagnosis.report.summary,
+        diagnosis
+            .report
+            .explanations
+            .iter()
+            .take(6)
+            .collect::<Vec<_>>(),
+        diagnosis.report.floor
+    );
+    let mut names = named(&diagnosis);
+    names.sort_unstable();
+    let hidden = ["constant_bias", "dry_offset", "nonlinear_spring", "ripple"];
+    assert_eq!(names, hidden);
+    assert_eq!(diagnosis.report.verdict, Verdict::Explained);
+}
+
+#[test]
 fn friction_by_the_square_of_the_load_is_named_with_its_exponent() {
     let mut transmission = Transmission::default();
     transmission.add_friction(&[0.021, 2.0]);
