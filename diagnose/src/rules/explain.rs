@@ -41,7 +41,7 @@ rules! {
     EXCHANGES: usize = 2, "rounds", DRIVEN;
     /// Leading explanations whose terms are tried with an onset, beside all explanations of one term.
     LATE: usize = 2, "explanations", REASON;
-    /// The most terms of one explanation that every search tries. More join as long as the most probable explanation has as many.
+    /// The most terms of one explanation that every search tries. More join as long as one more makes the most probable explanation more probable.
     MOST_TERMS: usize = 3, "terms", DRIVEN;
     /// An arm: the most terms of its explanation.
     MOST_OF_MANY: usize = 48, "terms", REASON;
