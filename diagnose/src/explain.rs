@@ -34,8 +34,9 @@ use std::sync::Arc;
 /// Explains a recording on top of the terms of its nominal model.
 ///
 /// The noise of a round of search is what the best explanation of the round before leaves. Where a
-/// round names nothing although it found what leaves much less, its noise was unexplained physics,
-/// and another follows. The leading explanations of a round compete in the next one.
+/// round names nothing although it found what leaves much less, if need be with more terms, its
+/// noise was unexplained physics, and another follows. The leading explanations of a round compete
+/// in the next one.
 pub fn explain(problem: &mut Problem, mut nominal: Vec<Term>) -> (Selection, Explanations) {
     let mut round = Round::of(problem, &nominal, problem.floor, ROWS_A_SAMPLE, 0, &[]);
     let living = loop {
