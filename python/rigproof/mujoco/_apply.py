@@ -61,13 +61,13 @@ BUILDS_UP = ("presliding", "dahl_bristle", "lugre_bristle")
 
 def _friction(effect: Keys, model: Any, dof: int, where: str, done: Done) -> bool:
     """Adds viscous or Coulomb friction; False where the effect is another."""
-    number: Keys = effect.get("coefficient") or effect.get("level") or {}
     if effect["mechanism"] in BUILDS_UP and "onset" not in effect:
         done["not_held"].append(f"{where}{effect['mechanism']}: MuJoCo has no number for the travel of {effect['travel']['value']:.3g} {effect['travel']['unit']}")
         _friction({"mechanism": "dry_offset", "level": effect["level"]}, model, dof, where, done)
         if "viscous" in effect:
             _friction({"mechanism": "viscous", "coefficient": effect["viscous"]}, model, dof, where, done)
         return True
+    number: Keys = effect.get("coefficient") or effect.get("level") or {}
     if effect["mechanism"] in ("viscous", "dry_offset") and number["value"] < 0.0:
         done["not_held"].append(f"{where}{effect['mechanism']} {number['value']:.4g} {number['unit']}: MuJoCo holds no friction that drives")
     elif effect["mechanism"] == "viscous" and "onset" not in effect:

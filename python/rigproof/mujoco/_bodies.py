@@ -15,7 +15,8 @@ from . import _inertia
 Floats = np.ndarray[Any, np.dtype[np.float64]]
 
 STATES = 60
-ROUNDS = 2000
+# After a tenth of them the last link of a Panda is not there yet.
+ROUNDS = 20000
 # How much smaller a body's least direction may be than the described body's: share of its mass and moments.
 LEAST = 1e-3
 
@@ -76,21 +77,22 @@ def nearest(columns: Floats, described: Floats, wanted: Floats, count: int) -> F
     whole = np.zeros((len(spread) + len(wanted) - 10 * count, len(wanted)))
     whole[: len(spread), : 10 * count] = spread
     whole[len(spread) :, 10 * count :] = np.eye(len(wanted) - 10 * count)
-    least = [LEAST * max(np.linalg.eigvalsh((PSEUDO @ described[10 * k : 10 * k + 10]).reshape(4, 4))[0], 1e-9) for k in range(count)]
+    solid = np.array([PSEUDO @ described[10 * k : 10 * k + 10] for k in range(count)]).reshape(count, 4, 4)
+    least = LEAST * np.maximum(np.linalg.eigvalsh(solid)[:, :1], 1e-9)
     gram = columns.T @ columns / len(columns)
     # The pull to the described numbers decides only where no effort does.
-    pull, step = 1e-6 * np.trace(gram) / len(gram), 1e-3 * np.trace(gram) / len(gram)
+    pull, step = 1e-6 * np.trace(gram) / len(gram), 1e-2 * np.trace(gram) / len(gram)
     inverse = np.linalg.inv(gram + (pull + step) * whole.T @ whole)
-    fixed = gram @ wanted + pull * whole.T @ (whole @ described)
+    from_efforts = whole @ inverse @ (gram @ wanted + pull * whole.T @ (whole @ described))
+    from_seen = step * whole @ inverse @ whole.T
     seen, lag = whole @ described, np.zeros(len(whole))
     for _ in range(ROUNDS):
-        own = inverse @ (fixed + step * whole.T @ (seen - lag))
-        seen = whole @ own + lag
-        for k in range(count):
-            values, axes = np.linalg.eigh(seen[16 * k : 16 * k + 16].reshape(4, 4))
-            seen[16 * k : 16 * k + 16] = (axes @ np.diag(np.maximum(values, least[k])) @ axes.T).ravel()
+        own = from_efforts + from_seen @ (seen - lag)
+        seen = own + lag
+        values, axes = np.linalg.eigh(seen[: 16 * count].reshape(count, 4, 4))
+        seen[: 16 * count] = (axes * np.maximum(values, least)[:, None] @ axes.swapaxes(1, 2)).ravel()
         seen[16 * count :] = np.maximum(seen[16 * count :], 0.0)
-        lag += whole @ own - seen
+        lag += own - seen
     # From the real side: what is returned is real to the last digit.
     return np.asarray(np.linalg.lstsq(whole, seen, rcond=None)[0], dtype=np.float64)
 
