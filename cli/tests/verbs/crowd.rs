@@ -10,11 +10,8 @@ use crate::serve::Served;
 
 /// Clients of a crowd, together.
 const CLIENTS: usize = 200;
-/// In which time nine of ten clients that behave are answered; a machine under load may hold one
-/// back, but none for as long as the page waits for a silent one.
+/// In which time a client that behaves is answered, and the memory that the page may take, MB.
 const ANSWERED: Duration = Duration::from_secs(1);
-const SILENT: Duration = Duration::from_secs(5);
-/// The memory that the page may take, MB.
 const MOST_MB: f64 = 200.0;
 /// How long a diagnosis is waited for; a machine under load takes minutes.
 const PATIENCE: Duration = Duration::from_secs(300);
@@ -80,14 +77,16 @@ fn a_crowd_of_slow_silent_and_oversized_clients_keeps_nobody_waiting() {
     let served = Served::begin(&desk, &["runs"]);
     let crowd: Vec<TcpStream> = (0..CLIENTS).map(|k| client(&served, k)).collect();
     let begun = Instant::now();
-    let mut taken: Vec<Duration> = Vec::new();
+    let mut slowest = Duration::ZERO;
+    let mut asked = 0;
     // For longer than a head is waited for.
     while begun.elapsed() < Duration::from_secs(7) {
         for path in ["/", "/state.json", "/run/run3/report.html"] {
             let at = Instant::now();
             let answer = served.get(path);
-            taken.push(at.elapsed());
+            slowest = slowest.max(at.elapsed());
             assert!(answer.starts_with("HTTP/1.1 200"), "{path}: {answer}");
+            asked += 1;
         }
         // Some drip on.
         for (k, mut stream) in crowd.iter().enumerate() {
@@ -97,14 +96,11 @@ fn a_crowd_of_slow_silent_and_oversized_clients_keeps_nobody_waiting() {
         }
         std::thread::sleep(Duration::from_millis(100));
     }
-    taken.sort();
-    let (asked, slowest) = (taken.len(), taken[taken.len() - 1]);
     let peak_mb = peak_mb(&served);
     println!(
         "{CLIENTS} clients: {asked} requests were answered, the slowest in {slowest:?}; at most {peak_mb:?} MB"
     );
-    assert!(taken[asked * 9 / 10] < ANSWERED, "{taken:?}");
-    assert!(slowest < SILENT, "{slowest:?}");
+    assert!(slowest < ANSWERED, "{slowest:?}");
     assert!(peak_mb.unwrap_or(0.0) < MOST_MB, "{peak_mb:?}");
     drop(crowd);
 }
