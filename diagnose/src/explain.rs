@@ -101,8 +101,7 @@ impl Round {
             tried: &tried,
         };
         let mut all = beam.search(exchanges, known);
-        let ranked = beam.by_score(all.clone());
-        let leading: Vec<Fitted> = ranked.iter().map(|(_, own)| own.clone()).collect();
+        let leading = beam.by_score(all.clone());
         let late = Late {
             problem,
             folds: &folds,
@@ -113,10 +112,10 @@ impl Round {
         let (mut larger, mut changed) = (Vec::new(), Vec::new());
         // The first round only says what is noise.
         if !found.is_empty() {
+            larger = beam.larger(&leading);
             let leading = [leading, begun.clone()].concat();
             changed = late.changed(&leading, &tried, &shapes_of(problem, nominal, false));
             changed.retain(|own| !begun.iter().any(|other| own.is_like(other)));
-            larger = beam.larger(&ranked);
         }
         all.extend(begun);
         Round {

@@ -63,35 +63,34 @@ impl Beam<'_> {
     }
 
     /// Explanations of more terms than a search tries on everything, as long as one term more makes
-    /// the most probable one more probable. `ranked` are those that were kept, the most probable
+    /// the most probable one more probable. `leading` are those that were kept, the most probable
     /// first.
-    pub fn larger(&self, ranked: &[(f64, Fitted)]) -> Vec<Fitted> {
-        let mut most = ranked
-            .first()
-            .map_or(f64::NEG_INFINITY, |(score, _)| *score);
-        let full = ranked.iter().map(|(_, own)| own);
-        let full = full.filter(|own| own.terms.len() == MOST_TERMS);
+    pub fn larger(&self, leading: &[Fitted]) -> Vec<Fitted> {
+        let best = |all: &[Fitted]| all.first().map_or(f64::NEG_INFINITY, |own| self.score(own));
+        let mut most = best(leading);
+        let full = leading.iter().filter(|own| own.terms.len() == MOST_TERMS);
         let mut living: Vec<Fitted> = full.take(BEAM).cloned().collect();
         let mut larger = Vec::new();
         loop {
             let (near, far) = self.children(&living, BEAM + KEPT);
-            let near = self.by_score(near);
-            let best = near.first().map(|(score, _)| *score);
-            living = near.into_iter().map(|(_, own)| own).collect();
+            living = self.by_score(near);
             larger.extend(living.iter().cloned().chain(far));
-            match best {
-                Some(score) if score > most => most = score,
-                _ => return larger,
+            let score = best(&living);
+            if score <= most {
+                return larger;
             }
+            most = score;
         }
     }
 
-    /// Explanations with their log posterior, up to a constant, the most probable first.
-    pub fn by_score(&self, all: Vec<Fitted>) -> Vec<(f64, Fitted)> {
-        let score = |own: &Fitted| self.judge.score(self.problem, self.folds, own);
-        let mut all: Vec<(f64, Fitted)> = all.into_iter().map(|own| (score(&own), own)).collect();
-        all.sort_by(|a, b| b.0.total_cmp(&a.0));
-        all
+    /// Explanations, the most probable first.
+    pub fn by_score(&self, all: Vec<Fitted>) -> Vec<Fitted> {
+        best_first(all, |own| self.score(own))
+    }
+
+    /// The log posterior of an explanation, up to a constant.
+    fn score(&self, own: &Fitted) -> f64 {
+        self.judge.score(self.problem, self.folds, own)
     }
 
     /// Keeps an explanation where it is the best of its causes.
@@ -163,12 +162,15 @@ impl Beam<'_> {
     }
 
     fn by_evidence(&self, all: Vec<Fitted>) -> Vec<Fitted> {
-        let evidence = |own: &Fitted| self.judge.evidence(self.folds, own);
-        let mut all: Vec<(f64, Fitted)> =
-            all.into_iter().map(|own| (evidence(&own), own)).collect();
-        all.sort_by(|a, b| b.0.total_cmp(&a.0));
-        all.into_iter().map(|(_, own)| own).collect()
+        best_first(all, |own| self.judge.evidence(self.folds, own))
     }
+}
+
+/// Explanations by what each is worth, the best first.
+fn best_first(all: Vec<Fitted>, worth: impl Fn(&Fitted) -> f64) -> Vec<Fitted> {
+    let mut all: Vec<(f64, Fitted)> = all.into_iter().map(|own| (worth(&own), own)).collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    all.into_iter().map(|(_, own)| own).collect()
 }
 
 /// The kept explanations, the best evidence first.
@@ -198,14 +200,12 @@ pub fn may_join(terms: &[Term], cause: Cause) -> bool {
 /// of a spectrum: a motor cogs by its poles and by its slots.
 pub fn joins(problem: &Problem, terms: &[Term], own: &Kept) -> bool {
     let cause = own.cause();
-    let forms: Vec<&Term> = terms.iter().filter(|own| is_form_of(own, cause)).collect();
-    if forms.is_empty() {
-        return true;
-    }
-    let travel = problem.run.travel(cause.at);
-    let cycles = |shape: &[f64]| travel / shape.first().unwrap_or(&TAU);
-    let is_apart = |other: &Term| (cycles(&other.shape) - cycles(own.shape())).abs() > PEAKS_APART;
-    let mut forms = forms.into_iter();
+    let is_apart = |other: &Term| {
+        let travel = problem.run.travel(cause.at);
+        let cycles = |shape: &[f64]| travel / shape.first().unwrap_or(&TAU);
+        (cycles(&other.shape) - cycles(own.shape())).abs() > PEAKS_APART
+    };
+    let mut forms = terms.iter().filter(|own| is_form_of(own, cause));
     forms.all(|own| own.cause == cause && is_periodic(cause) && is_apart(own))
 }
 

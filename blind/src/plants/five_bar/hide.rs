@@ -37,6 +37,7 @@ const SCALABLE: [Recipe; 12] = [
     dry, viscous, stribeck, presliding, spring, ripple, load, gain, payload, gravity, force_gain,
     force_bias,
 ];
+/// Physics outside the library, but for the tether, which has a name since 0313 and stays where it was drawn.
 const FOREIGN: [Recipe; 4] = [two_ripples, tether, varying_skew, compliance];
 /// Sets of which each looks like less of the others, all at one joint.
 const MASKED: [&[Recipe]; 10] = [

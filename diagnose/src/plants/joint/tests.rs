@@ -354,17 +354,6 @@ fn four_causes_are_named_together() {
         ..Options::default()
     };
     let diagnosis = diagnose(&bench, &[&recording], None, &options);
-    eprintln!(
-        "{} {:?} {:?}",
-        diagnosis.report.summary,
-        diagnosis
-            .report
-            .explanations
-            .iter()
-            .take(6)
-            .collect::<Vec<_>>(),
-        diagnosis.report.floor
-    );
     let mut names = named(&diagnosis);
     names.sort_unstable();
     let hidden = ["constant_bias", "dry_offset", "nonlinear_spring", "ripple"];
