@@ -165,6 +165,12 @@ pub fn diagnose<P: Plant>(
     };
     options.watch.enters(Stage::Explain);
     let (mut selection, mut explanations) = named(&mut problem, terms);
+    if let Some((stated, remark)) = plant.stated(&parts.train, &problem, &selection) {
+        let mut again = diagnose(&stated, recordings, held_out, options);
+        again.report.protocol.push(remark.words.clone());
+        again.report.remarks.push(remark);
+        return again;
+    }
     let checked = plant.check_found(&problem, &selection);
     let checked = checked.and_then(|()| plant.check_numbers(&parts.train, &problem, &selection));
     if let Err(fault) = checked {

@@ -19,8 +19,9 @@ const LEAST_RIGHT: f64 = 0.9;
 const MOST_FALSE: f64 = 0.01;
 
 /// Remarks about a result, which are no faults of its recording.
-const OF_THE_RESULT: [&str; 5] = [
+const OF_THE_RESULT: [&str; 6] = [
     "below_floor",
+    "inertia_as_stated",
     "inertia_not_told",
     "negative_delay",
     "forms",

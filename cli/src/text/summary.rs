@@ -219,7 +219,7 @@ fn doubt(report: &Report) -> Option<String> {
                 likest.unwrap_or_default()
             )
         }
-        ([], _) => return None,
+        ([], _) => String::new(),
         ([one], _) => format!("this recording cannot rule out {one}"),
         ([one, other], _) => format!("this recording cannot rule out {one}, nor {other}"),
         ([one, rest @ ..], _) => format!(
@@ -227,7 +227,15 @@ fn doubt(report: &Report) -> Option<String> {
             rest.len()
         ),
     };
-    Some(line("doubt", &said))
+    let stated = report.has_inertia_as_stated();
+    let stated = stated
+        .then(|| "this recording does not tell the inertia, which is taken as stated".to_owned());
+    let said = stated
+        .into_iter()
+        .chain([said])
+        .filter(|own| !own.is_empty());
+    let said = said.collect::<Vec<_>>().join("; ");
+    (!said.is_empty()).then(|| line("doubt", &said))
 }
 
 /// The causes that would explain as much as a name, each once.

@@ -2,9 +2,10 @@
 
 use super::write::Stand;
 use crate::cause::Cause;
+use crate::continuity::Remark;
 use crate::evidence::{Intervals, coefficients_by_term, parameters};
-use crate::plant::{Plant, Run};
-use crate::report::{Floor, Remark};
+use crate::plant::{Clock, Plant, Run};
+use crate::report::Floor;
 use crate::rules::{CURVE_SHARE, FAR_BELOW_FLOOR};
 use crate::selection::{floor_limit, refs};
 use rigproof_model::effects::facts;
@@ -57,7 +58,7 @@ impl<P: Plant> Stand<'_, P> {
                 "likest",
                 "effect",
                 format!(
-                    "most like it is {} ({}), which alone takes away {:.0} % of its energy, too little to be named",
+                    "most like it is {} ({}), which alone takes away {:.0} % of its energy and is not likely enough to be named",
                     facts(cause.mechanism).map_or("", |facts| facts.words.what),
                     self.problem.name(cause),
                     100.0 * share
@@ -86,7 +87,18 @@ impl<P: Plant> Stand<'_, P> {
     }
 
     fn odd(&self, what: &'static str, channel: &'static str, words: String) -> Remark {
-        let clock = self.train.clock();
+        Remark::throughout(self.train.clock(), what, channel, words)
+    }
+}
+
+impl Remark {
+    /// A remark on a whole recording.
+    pub(crate) fn throughout(
+        clock: Clock,
+        what: &'static str,
+        channel: &'static str,
+        words: String,
+    ) -> Remark {
         Remark {
             channel,
             what,

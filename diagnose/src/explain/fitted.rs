@@ -212,20 +212,18 @@ impl Fitted {
         self.losses.iter().sum()
     }
 
-    /// The energy of the effort that reaches the plant, over that of the recorded effort.
-    ///
-    /// A change of the drive that shrinks the effort shrinks every residual with it. Residuals are
-    /// therefore divided by this share.
-    pub fn acting_share(&self, folds: &Folds) -> f64 {
+    /// The energies of the effort that reaches the plant in each cell; `None` if that is the recorded
+    /// effort.
+    pub fn acting_energies(&self, folds: &Folds) -> Option<Vec<[f64; 2]>> {
         if self.gains.is_empty() && Arc::ptr_eq(&self.acting, &folds.driving) {
-            return 1.0;
+            return None;
         }
         let mut acting = self.acting.to_vec();
         for (place, column) in &self.gains {
             let gain = self.coefficients.get(*place).copied().unwrap_or(0.0);
             add(&mut acting, &column.raw, -gain);
         }
-        dot(&acting, &acting) / folds.driving_energy.max(1e-300)
+        Some(folds.energies(&acting))
     }
 
     /// The squared residual of a cell with these coefficients.

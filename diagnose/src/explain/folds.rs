@@ -14,14 +14,17 @@ pub struct Folds {
     places: Vec<usize>,
     /// First and end position of each part of a block whose rows have one noise: its cells.
     pub cells: Vec<(usize, usize)>,
+    /// The first and the end row of each cell among all rows, of which each `outputs`-th is its own.
+    spans: Vec<(usize, usize)>,
+    outputs: usize,
     /// First and end position of the cells of each block.
     pub blocks: Vec<(usize, usize)>,
     /// The number of rows of each cell.
     pub counts: Vec<f64>,
     /// The driving effort of every row.
     pub driving: Arc<Vec<f64>>,
-    /// Its energy.
-    pub driving_energy: f64,
+    /// Its energies in each cell.
+    pub driving_energies: Vec<[f64; 2]>,
     /// The number of rows that carry as much information as one independent sample.
     pub rows_a_sample: f64,
 }
@@ -49,24 +52,25 @@ impl Folds {
             true => problem.windows.outputs,
             false => 1,
         };
-        let of_block = |&(first, end): &(usize, usize)| -> Vec<usize> {
+        let of_block = |&(first, end): &(usize, usize)| -> (usize, Vec<usize>) {
             let is_usable = |row: &usize| usable.get(*row) == Some(&true);
             let mut rows: Vec<usize> = (first..end).filter(is_usable).collect();
             rows.sort_by_key(|row| row % outputs);
-            rows
+            (end, rows)
         };
         let all = Blocks::new(problem).ranges;
         let all = all.iter().map(of_block);
         let mut rows: Vec<usize> = Vec::new();
-        let (mut cells, mut blocks) = (Vec::new(), Vec::new());
+        let (mut cells, mut spans, mut blocks) = (Vec::new(), Vec::new(), Vec::new());
         let fewest = match problem.windows.are_alone() {
             true => 0,
             false => FEWEST_ROWS,
         };
-        for block in all.filter(|block| block.len() > fewest) {
+        for (end, block) in all.filter(|(_, block)| block.len() > fewest) {
             let first = cells.len();
             for cell in block.chunk_by(|a, b| a % outputs == b % outputs) {
                 cells.push((rows.len(), rows.len() + cell.len()));
+                spans.push((cell.first().copied().unwrap_or(end), end));
                 rows.extend(cell);
             }
             blocks.push((first, cells.len()));
@@ -80,16 +84,36 @@ impl Folds {
         let before: Vec<usize> = before.collect();
         let places = rows.iter().filter_map(|row| before.get(*row).copied());
         let driving = problem.windows.average(&problem.run.driving());
-        Folds {
+        let mut folds = Folds {
             counts: counts.collect(),
-            driving_energy: dot(&driving, &driving),
+            driving_energies: Vec::new(),
             driving: Arc::new(driving),
             rows_a_sample: problem.rows_a_sample,
             places: places.collect(),
             rows,
             cells,
+            spans,
+            outputs,
             blocks,
-        }
+        };
+        folds.driving_energies = folds.energies(&folds.driving);
+        folds
+    }
+
+    /// The energy of a raw effort in each cell, and that of its changes from row to row. Rows that are
+    /// not usable count too: a drive acts at rest.
+    pub fn energies(&self, effort: &[f64]) -> Vec<[f64; 2]> {
+        let of_cell = |&(first, end): &(usize, usize)| {
+            let rows = effort.get(first..end).unwrap_or_default();
+            let next = rows.iter().skip(self.outputs).step_by(self.outputs);
+            let changes = rows.iter().step_by(self.outputs).zip(next);
+            let energy = rows.iter().step_by(self.outputs).map(|e| e * e).sum();
+            [
+                energy,
+                changes.map(|(own, next)| (next - own).powi(2)).sum(),
+            ]
+        };
+        self.spans.iter().map(of_cell).collect()
     }
 
     /// A column of all rows on the usable ones.

@@ -35,13 +35,22 @@ impl Judge {
     /// The logarithm of the predictive density of left-out blocks, up to a constant; −∞ for an
     /// effort that would have to be many times the recorded one. A gain that begins where no row is
     /// usable has such a coefficient.
+    ///
+    /// A change of the drive that shrinks the effort, or its changes, shrinks the residual with it.
+    /// Losses are therefore divided by the share of their energy that acts, in the cells where the
+    /// effort is changed: a limit shrinks it where it is reached.
     pub fn evidence(&self, folds: &Folds, fitted: &Fitted) -> f64 {
-        let share = fitted.acting_share(folds).max(1e-300);
+        let driving = &folds.driving_energies;
+        let acting = fitted.acting_energies(folds);
+        let acting = acting.as_ref().unwrap_or(driving);
+        let share = acting_share(acting, driving);
         if share > MOST_ACTING {
             return f64::NEG_INFINITY;
         }
-        let blocks = folds.counts.iter().zip(&fitted.losses);
-        let each = blocks.map(|(rows, loss)| {
+        let cells = folds.counts.iter().zip(&fitted.losses);
+        let each = cells.zip(acting.iter().zip(driving));
+        let each = each.map(|((rows, loss), (acting, driving))| {
+            let share = if acting == driving { 1.0 } else { share };
             let left = loss / rows / share + self.granted;
             -0.5 * rows / self.rows_a_sample * libm::log(left)
         });
@@ -69,6 +78,20 @@ impl Judge {
             energy(&bare.of(folds, &others)) >= least
         })
     }
+}
+
+/// The share of the energy that acts, of the effort or of its changes, whichever is less, in the cells
+/// where the effort is changed; at least 1e-300.
+fn acting_share(acting: &[[f64; 2]], driving: &[[f64; 2]]) -> f64 {
+    let both = acting.iter().zip(driving);
+    let changed = both.filter(|(acting, driving)| acting != driving);
+    let sums = changed.fold([[0.0; 2]; 2], |[acts, drives], (acting, driving)| {
+        let add = |a: [f64; 2], b: &[f64; 2]| [a[0] + b[0], a[1] + b[1]];
+        [add(acts, acting), add(drives, driving)]
+    });
+    let [acts, drives] = sums;
+    let share = |place: usize| acts[place] / drives[place].max(1e-300);
+    share(0).min(share(1)).max(1e-300)
 }
 
 /// The log prior of a set of terms.
@@ -179,6 +202,16 @@ pub fn is_impossible(problem: &Problem, fitted: &Fitted) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_effort_is_weaker_only_where_it_is_changed() {
+        let driving = [[4.0, 1.0], [25.0, 3.0], [9.0, 2.0]];
+        // A limit that cuts the second cell, and shrinks changes more than the effort.
+        let limited = [driving[0], [5.0, 0.3], driving[2]];
+        assert!((acting_share(&limited, &driving) - 0.1).abs() < 1e-15);
+        let halved = driving.map(|own| own.map(|energy| 0.25 * energy));
+        assert!((acting_share(&halved, &driving) - 0.25).abs() < 1e-15);
+    }
 
     #[test]
     fn a_joint_is_likelier_to_lack_what_others_lack() {

@@ -4,6 +4,7 @@
 use super::{Replayed, Run, Simulated, Unsimulated};
 use crate::align::Fault;
 use crate::cause::Cause;
+use crate::continuity::Remark;
 use crate::diagnose::numbers::fitted;
 use crate::diagnose::write::Stand;
 use crate::diagnose::{Curves, balance};
@@ -104,6 +105,21 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
     fn check(&self, run: &Self::Run, problem: &Problem) -> Result<(), (At, Fault)> {
         let _ = (run, problem);
         Ok(())
+    }
+
+    /// The description with what it leaves open, and this recording does not determine, taken as it is
+    /// stated; with what is said of that. `None` if there is no such number.
+    fn stated(
+        &self,
+        run: &Self::Run,
+        problem: &Problem,
+        selection: &Selection,
+    ) -> Option<(Self, Remark)>
+    where
+        Self: Sized,
+    {
+        let _ = (run, problem, selection);
+        None
     }
 
     /// Checks after the search.

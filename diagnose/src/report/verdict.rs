@@ -59,8 +59,18 @@ impl Report {
 
     /// What is most like what is left where nothing is named, in words.
     pub fn likest(&self) -> Option<&str> {
+        self.said("likest")
+    }
+
+    /// Whether an unknown inertia was taken as it is stated.
+    pub fn has_inertia_as_stated(&self) -> bool {
+        self.said("inertia_as_stated").is_some()
+    }
+
+    /// The words of a remark.
+    fn said(&self, what: &str) -> Option<&str> {
         let mut remarks = self.remarks.iter();
-        let own = remarks.find(|own| own.what == "likest")?;
+        let own = remarks.find(|own| own.what == what)?;
         Some(&own.words)
     }
 

@@ -118,7 +118,7 @@ rules! {
     /// Axis: lowest resonance of a compliant drive that is tried.
     SLOWEST_RESONANCE: f64 = 30.0, "rad/s", DRIVEN;
     /// Axis: highest resonance that is tried, relative to the sampling rate.
-    RESONANCE_STEPS: f64 = 0.3, "1/sample", DRIVEN;
+    RESONANCE_STEPS: f64 = 1.0, "1/sample", DRIVEN;
     /// Axis: bounds of that highest resonance.
     FASTEST_RESONANCE: [f64; 2] = [40.0, 300.0], "rad/s", DRIVEN;
     /// Axis: resonances that are tried.

@@ -13,7 +13,7 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
     equation: "share·|e|·sgn(q̇), or share·|e/(1 N·m)|^exponent·(1 N·m)·sgn(q̇), e the effort at the joint",
     facts: Facts {
         in_sets: true,
-        usual: Usual::Seldom,
+        usual: Usual::Common,
         shapes: Shapes::OfLoad {
             low: 0.03,
             high: 0.5,

@@ -7,6 +7,7 @@ use super::inertia::Inertia;
 use super::run::{JointRun, PlantKind};
 use crate::align::Fault;
 use crate::cause::{Cause, Scales};
+use crate::continuity::Remark;
 use crate::evidence::{Intervals, coefficients_by_term, intervals};
 use crate::problem::Problem;
 use crate::regression::Fit;
@@ -153,6 +154,40 @@ fn throughout(problem: &Problem, channel: &'static str, reason: String) -> Fault
     }
 }
 
+/// The fitted inertia and the half width of its interval; `None` without an interval.
+fn fitted_inertia(
+    problem: &Problem,
+    selection: &Selection,
+    intervals: &Intervals,
+) -> Option<(f64, f64)> {
+    let (nuisances, _) = coefficients_by_term(problem, selection);
+    let half = intervals.nuisances.first().filter(|half| half.is_finite());
+    nuisances.first().copied().zip(half.copied())
+}
+
+/// The stated inertia and what is said of it, if it is unknown and its interval holds it and 0, and
+/// nothing is explained: it may be as stated, and this recording does not tell.
+pub fn inertia_as_stated(
+    run: &JointRun,
+    problem: &Problem,
+    selection: &Selection,
+) -> Option<(f64, Remark)> {
+    let Inertia::Unknown(stated) = run.inertia else {
+        return None;
+    };
+    if explains(problem, selection) {
+        return None;
+    }
+    let (inertia, half) = fitted_inertia(problem, selection, &intervals(problem, selection))?;
+    let is_open = inertia.abs() <= half && (inertia - stated).abs() <= half;
+    let words = format!(
+        "this recording does not determine the inertia, which comes out as {inertia:.1e} ± {half:.1e} (SI): it is taken as stated, {stated:.3e}; record faster motion to check it"
+    );
+    let clock = problem.run.clock();
+    let remark = Remark::throughout(clock, "inertia_as_stated", "inertia", words);
+    is_open.then_some((stated, remark))
+}
+
 /// An unknown inertia or friction whose estimate no plant has. A wrong sign or unit of a channel
 /// drives such estimates anywhere.
 pub fn impossible_numbers(
@@ -164,14 +199,8 @@ pub fn impossible_numbers(
         let fault = explains_nothing(problem, selection);
         return fault.or_else(|| negative_drag(problem, selection, &intervals(problem, selection)));
     };
-    let (nuisances, _) = coefficients_by_term(problem, selection);
-    let inertia = *nuisances.first()?;
     let intervals = intervals(problem, selection);
-    let half = intervals
-        .nuisances
-        .first()
-        .copied()
-        .filter(|half| half.is_finite())?;
+    let (inertia, half) = fitted_inertia(problem, selection, &intervals)?;
     let is_told = inertia.abs() > half;
     let reason = if is_told && inertia < 0.0 {
         Some(format!(

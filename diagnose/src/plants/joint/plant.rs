@@ -3,7 +3,8 @@
 use super::fitted::wider;
 use super::inverse::{self, CUTOFF_HZ, DECIMATION, FILTER_ORDER};
 use super::mistaken::{
-    another_drive, another_inertia, beyond_reason, impossible_numbers, without_brake,
+    another_drive, another_inertia, beyond_reason, impossible_numbers, inertia_as_stated,
+    without_brake,
 };
 use super::run::{JointRun, PlantKind};
 use super::simulate::output;
@@ -11,6 +12,7 @@ use super::write_rig::{calibrated, found_in, nominal_numbers};
 use super::{experiment, from_rig, replica, undone};
 use crate::align::Fault;
 use crate::cause::Cause;
+use crate::continuity::Remark;
 use crate::diagnose::write::Stand;
 use crate::effect::Effect;
 use crate::evidence::Intervals;
@@ -23,7 +25,7 @@ use crate::sensor::sensed;
 use rand_pcg::Pcg64Mcg;
 use rigproof_spec::effect::{Mechanism, Quantity};
 use rigproof_trace::csv::{Dialect, Hints};
-use rigproof_trace::rig::{Recording, Rig, RigEffect, motion_name};
+use rigproof_trace::rig::{Recording, Rig, RigEffect, Value, motion_name};
 use rigproof_trace::{Trace, TraceError};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -57,6 +59,18 @@ impl Plant for Rig {
         let fault = not_so.map(undone::of_description);
         let fault = fault.or_else(|| without_brake(self, run));
         fault.map_or(Ok(()), |fault| Err(("description", fault)))
+    }
+
+    fn stated(
+        &self,
+        run: &JointRun,
+        problem: &Problem,
+        selection: &Selection,
+    ) -> Option<(Rig, Remark)> {
+        let (inertia, remark) = inertia_as_stated(run, problem, selection)?;
+        let mut own = self.clone();
+        own.parameters.as_mut()?.inertia = Value::known(inertia);
+        Some((own, remark))
     }
 
     fn check_found(&self, problem: &Problem, selection: &Selection) -> Result<(), Fault> {

@@ -411,3 +411,20 @@ fn what_is_too_small_to_be_named_is_said_to_be_most_like_it() {
     let [named, ..] = both(&[DRY]);
     assert_eq!(named.report.likest(), None);
 }
+
+/// What shakes an axis in time is not in the library. Under it the inertia is not determined, and the
+/// stated one is as likely as any.
+#[test]
+fn an_inertia_that_is_not_determined_is_taken_as_stated() {
+    let rig = axis();
+    let mut exact = exact_axis(NOMINAL, 15_300, true);
+    for (k, effort) in exact.effort.iter_mut().enumerate() {
+        let time_s = k as f64 * exact.step_s;
+        *effort += 31.0 * libm::sin(3.3 * time_s + 2.0 * libm::sin(0.7 * time_s));
+    }
+    let found = diagnose(&rig, &[&recording(&rig, &exact)], None, &Options::default());
+    let report = &found.report;
+    assert_eq!(report.verdict, Verdict::NoneOfLibrary, "{}", report.summary);
+    let said = report.remarks.iter().map(|own| own.what);
+    assert!(said.clone().any(|own| own == "inertia_as_stated"));
+}
