@@ -172,18 +172,14 @@ pub fn standard_shapes<R: Run + ?Sized>(
         Shapes::Memory => memories(travel),
         // The trial values of an encoder's cause are steps of a finite difference.
         Shapes::Values(_) if is_straight_encoder(run, cause) => vec![vec![]],
-        Shapes::Gap => one(geometric(
-            (LEAST_GAP_SIGMAS * run.position_noise()).max(LEAST_GAP * travel),
-            MOST_GAP * travel,
-            GAPS,
-        )),
+        Shapes::Gap => one(gaps(run, travel)),
         Shapes::OfTravel { low, high, count } => lashes(
             &geometric(low * travel, high * travel, count),
             middle(run.motion(cause.at)),
         ),
         Shapes::Stop => stops(run.motion(cause.at)),
         Shapes::OfLoad { low, high, count } => by_load(&geometric(low, high, count), run),
-        Shapes::Resonance => resonances(step_s),
+        Shapes::Resonance => resonances(step_s, &gaps(run, travel)),
         Shapes::EffortLimit => limits(greatest(&run.effort()), EFFORT_LIMIT_SHARES, EFFORT_LIMITS),
         Shapes::EffortRate => one(effort_rates(&run.effort())),
         Shapes::Period => one(all_periods(run, cause, windows, residual)),
@@ -287,14 +283,25 @@ fn memories(travel: f64) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Trial resonances of a compliance, with damping ratios.
-fn resonances(step_s: f64) -> Vec<Vec<f64>> {
+/// Trial widths of a backlash.
+fn gaps<R: Run + ?Sized>(run: &R, travel: f64) -> Vec<f64> {
+    let least = (LEAST_GAP_SIGMAS * run.position_noise()).max(LEAST_GAP * travel);
+    geometric(least, MOST_GAP * travel, GAPS)
+}
+
+/// Trial resonances of a compliance, with damping ratios, and with play every third of these widths.
+fn resonances(step_s: f64, gaps: &[f64]) -> Vec<Vec<f64>> {
     let [least, most] = FASTEST_RESONANCE;
     let fastest = (RESONANCE_STEPS / step_s).clamp(least, most);
-    geometric(SLOWEST_RESONANCE, fastest, RESONANCES)
-        .into_iter()
-        .flat_map(|resonance| RESONANCE_DAMPINGS.map(|damping| vec![resonance, damping]))
-        .collect()
+    let resonances = geometric(SLOWEST_RESONANCE, fastest, RESONANCES);
+    let held = resonances.iter();
+    let held = held.flat_map(|own| RESONANCE_DAMPINGS.map(|damping| vec![*own, damping]));
+    let [_, damping] = RESONANCE_DAMPINGS;
+    let with_play = resonances.iter().flat_map(|own| {
+        let gaps = gaps.iter().step_by(3);
+        gaps.map(|gap| vec![*own, damping, *gap])
+    });
+    held.chain(with_play).collect()
 }
 
 /// Trial limits of a brake's current, A, of which `full` is the greatest; none where hardly any

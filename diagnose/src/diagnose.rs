@@ -13,6 +13,7 @@ pub(crate) mod write;
 
 use crate::align::Fault;
 use crate::cause::{Cause, Place};
+use crate::continuity::Remark;
 use crate::evidence::{Intervals, intervals};
 use crate::explain::{Explanations, explain, explain_many};
 use crate::filter::usable_rms;
@@ -68,6 +69,13 @@ pub struct Diagnosis<D = crate::Description> {
 }
 
 impl<D> Diagnosis<D> {
+    /// The same diagnosis with one more remark.
+    fn remarked(mut self, remark: Remark) -> Diagnosis<D> {
+        self.report.protocol.push(remark.words.clone());
+        self.report.remarks.push(remark);
+        self
+    }
+
     /// The same diagnosis with its calibration converted.
     pub fn map<E>(self, of: impl FnOnce(D) -> E) -> Diagnosis<E> {
         Diagnosis {
@@ -166,10 +174,7 @@ pub fn diagnose<P: Plant>(
     options.watch.enters(Stage::Explain);
     let (mut selection, mut explanations) = named(&mut problem, terms);
     if let Some((stated, remark)) = plant.stated(&parts.train, &problem, &selection) {
-        let mut again = diagnose(&stated, recordings, held_out, options);
-        again.report.protocol.push(remark.words.clone());
-        again.report.remarks.push(remark);
-        return again;
+        return diagnose(&stated, recordings, held_out, options).remarked(remark);
     }
     let checked = plant.check_found(&problem, &selection);
     let checked = checked.and_then(|()| plant.check_numbers(&parts.train, &problem, &selection));

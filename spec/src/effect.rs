@@ -149,6 +149,7 @@ vocabulary! {
         needed("share", Number).part(),
         needed("resonance", PerTime).above_zero(),
         needed("damping", Number).above_zero(),
+        optional("gap", Travel).above_zero(),
     ],
     /// Time shift between two channels.
     ChannelSkew = "channel_skew" called "time skew between channels" | "skew" [needed("delay", Time)],

@@ -115,7 +115,7 @@ impl Plant {
                     share: number(0).min(MOST_TRAILING),
                     resonance_rad_s: number(1),
                     damping: number(2),
-                    half_gap: 0.0,
+                    half_gap: 0.5 * number(3),
                 });
             }
             OfJoint::Gap | OfJoint::Fade | OfJoint::Link | OfJoint::Stiffness | OfJoint::Lash => {}

@@ -90,8 +90,8 @@ fn acting_share(acting: &[[f64; 2]], driving: &[[f64; 2]]) -> f64 {
         [add(acts, acting), add(drives, driving)]
     });
     let [acts, drives] = sums;
-    let share = |place: usize| acts[place] / drives[place].max(1e-300);
-    share(0).min(share(1)).max(1e-300)
+    let shares = acts.iter().zip(drives).map(|(a, d)| a / d.max(1e-300));
+    shares.fold(f64::INFINITY, f64::min).max(1e-300)
 }
 
 /// The log prior of a set of terms.

@@ -13,7 +13,7 @@ pub(super) const LOAD_FRICTION: Entry = Entry {
     equation: "share·|e|·sgn(q̇), or share·|e/(1 N·m)|^exponent·(1 N·m)·sgn(q̇), e the effort at the joint",
     facts: Facts {
         in_sets: true,
-        usual: Usual::Common,
+        usual: Usual::Seldom,
         shapes: Shapes::OfLoad {
             low: 0.03,
             high: 0.5,
@@ -126,7 +126,7 @@ pub(super) const COMPLIANCE: Entry = Entry {
     linear: 1,
     passive: true,
     refuted_by: "a load that moves as the joint does up to the highest frequency",
-    equation: "share of the inertia follows the joint as a resonator of this frequency and damping",
+    equation: "share of the inertia follows the joint as a resonator of this frequency and damping, free within ±gap/2",
     facts: Facts {
         in_sets: true,
         usual: Usual::Seldom,

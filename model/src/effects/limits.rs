@@ -13,7 +13,7 @@ pub(super) const ENTRY: Entry = Entry {
     equation: "e = gain·u cut at ±limit, or gain·u/(1 + |gain·u/limit|^sharpness)^(1/sharpness) where it bends towards it",
     facts: Facts {
         in_sets: true,
-        usual: Usual::Frequent,
+        usual: Usual::Seldom,
         shapes: Shapes::EffortLimit,
         ..Facts::of(
             Family::Drive,

@@ -172,7 +172,7 @@ impl Free {
                         share: effect.value(0).min(MOST_TRAILING),
                         resonance_rad_s: effect.value(1),
                         damping: effect.value(2),
-                        half_gap: 0.0,
+                        half_gap: 0.5 * effect.value(3),
                     });
                 }
                 OfJoint::Gap => gap = Some(effect),
