@@ -12,10 +12,10 @@ use crate::problem::{Bounds, Problem, Term, add};
 use crate::regression::Fit;
 use crate::rules::{
     BENDS_JOINT, BRISTLE_EXPONENTS, DELAYS, EDGE, EFFORT_LIMIT_SHARES, EFFORT_LIMITS, FASTEST_PEAK,
-    FASTEST_RESONANCE, GAPS, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS, LEAST_GAP,
-    LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED, LEAST_SHIFT_STEPS_JOINT, LIMIT_SHARES,
-    LIMITS, LOAD_EXPONENTS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND, MOST_CYCLES,
-    MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
+    FASTEST_RESONANCE, GAPS, GAPS_OF_A_SPRING, LAGS_JOINT, LEAST_BEND, LEAST_BEND_SIGMAS,
+    LEAST_GAP, LEAST_GAP_SIGMAS, LEAST_LAG_STEPS, LEAST_LIMITED, LEAST_SHIFT_STEPS_JOINT,
+    LIMIT_SHARES, LIMITS, LOAD_EXPONENTS, MEMORY_COUNT, MEMORY_RATES, MEMORY_RATIOS, MOST_BEND,
+    MOST_CYCLES, MOST_DELAY_S, MOST_GAP, MOST_LAG_S_JOINT, MOST_SHIFT_S_JOINT, MOST_SHIFT_STEPS,
     PEAK_EXPONENTS_JOINT, PEAK_SPEEDS, PLAYED_SHARES, RESONANCE_DAMPINGS, RESONANCE_STEPS,
     RESONANCES, RISE_TIMES_S, ROUND_LIMIT_SHARES, SHARPNESSES, SHIFTS_JOINT, SLOWEST_PEAK,
     SLOWEST_PEAK_FLOORS, SLOWEST_RESONANCE, STOP_SHARES,
@@ -289,7 +289,7 @@ fn gaps<R: Run + ?Sized>(run: &R, travel: f64) -> Vec<f64> {
     geometric(least, MOST_GAP * travel, GAPS)
 }
 
-/// Trial resonances of a compliance, with damping ratios, and with play every third of these widths.
+/// Trial resonances of a compliance, with damping ratios, and with play some of these widths.
 fn resonances(step_s: f64, gaps: &[f64]) -> Vec<Vec<f64>> {
     let [least, most] = FASTEST_RESONANCE;
     let fastest = (RESONANCE_STEPS / step_s).clamp(least, most);
@@ -298,7 +298,7 @@ fn resonances(step_s: f64, gaps: &[f64]) -> Vec<Vec<f64>> {
     let held = held.flat_map(|own| RESONANCE_DAMPINGS.map(|damping| vec![*own, damping]));
     let [_, damping] = RESONANCE_DAMPINGS;
     let with_play = resonances.iter().flat_map(|own| {
-        let gaps = gaps.iter().step_by(3);
+        let gaps = gaps.iter().step_by(GAPS_OF_A_SPRING);
         gaps.map(|gap| vec![*own, damping, *gap])
     });
     held.chain(with_play).collect()

@@ -173,13 +173,15 @@ pub fn diagnose<P: Plant>(
     };
     options.watch.enters(Stage::Explain);
     let (mut selection, mut explanations) = named(&mut problem, terms);
-    if let Some((stated, remark)) = plant.stated(&parts.train, &problem, &selection) {
-        return diagnose(&stated, recordings, held_out, options).remarked(remark);
-    }
     let checked = plant.check_found(&problem, &selection);
     let checked = checked.and_then(|()| plant.check_numbers(&parts.train, &problem, &selection));
     if let Err(fault) = checked {
-        return faulty(plant, "recording", fault);
+        return match plant.stated(&parts.train, &problem, &selection) {
+            Some((stated, remark)) => {
+                diagnose(&stated, recordings, held_out, options).remarked(remark)
+            }
+            None => faulty(plant, "recording", fault),
+        };
     }
     let beyond = plant.beyond_reason(&problem, &selection);
     selection.withdraw(&problem, beyond.as_slice());

@@ -110,13 +110,10 @@ impl Plant {
             OfJoint::Inertia => self.axis.inertia += number(0),
             OfJoint::Load => self.axis.transmission.add_friction(numbers),
             OfJoint::Compliance => {
+                let mut part = Trailing::of(numbers);
+                part.share = part.share.min(MOST_TRAILING);
                 let [spring, _] = &mut self.axis.transmission.trailing;
-                *spring = Some(Trailing {
-                    share: number(0).min(MOST_TRAILING),
-                    resonance_rad_s: number(1),
-                    damping: number(2),
-                    half_gap: 0.5 * number(3),
-                });
+                *spring = Some(part);
             }
             OfJoint::Gap | OfJoint::Fade | OfJoint::Link | OfJoint::Stiffness | OfJoint::Lash => {}
         }

@@ -203,8 +203,16 @@ fn error(report: &Report) -> Option<String> {
     Some(line("error", &text))
 }
 
-/// What else would explain the recording, or what is still unexplained.
+/// What was taken as stated, and what is undecided.
 fn doubt(report: &Report) -> Option<String> {
+    let stated = "this recording does not tell the inertia, which is taken as stated";
+    let stated = report.has_inertia_as_stated().then(|| stated.to_owned());
+    let said: Vec<String> = stated.into_iter().chain(undecided(report)).collect();
+    (!said.is_empty()).then(|| line("doubt", &said.join("; ")))
+}
+
+/// What else would explain the recording, or what is still unexplained.
+fn undecided(report: &Report) -> Option<String> {
     let rivals: Vec<String> = rivals(report)
         .iter()
         .map(|rival| format!("{} ({rival})", plain_cause(rival)))
@@ -219,7 +227,7 @@ fn doubt(report: &Report) -> Option<String> {
                 likest.unwrap_or_default()
             )
         }
-        ([], _) => String::new(),
+        ([], _) => return None,
         ([one], _) => format!("this recording cannot rule out {one}"),
         ([one, other], _) => format!("this recording cannot rule out {one}, nor {other}"),
         ([one, rest @ ..], _) => format!(
@@ -227,15 +235,7 @@ fn doubt(report: &Report) -> Option<String> {
             rest.len()
         ),
     };
-    let stated = report.has_inertia_as_stated();
-    let stated = stated
-        .then(|| "this recording does not tell the inertia, which is taken as stated".to_owned());
-    let said = stated
-        .into_iter()
-        .chain([said])
-        .filter(|own| !own.is_empty());
-    let said = said.collect::<Vec<_>>().join("; ");
-    (!said.is_empty()).then(|| line("doubt", &said))
+    Some(said)
 }
 
 /// The causes that would explain as much as a name, each once.

@@ -107,8 +107,9 @@ pub trait Plant: Clone + Debug + Send + Sync + Sized {
         Ok(())
     }
 
-    /// The description with what it leaves open, and this recording does not determine, taken as it is
-    /// stated; with what is said of that. `None` if there is no such number.
+    /// Where a check after the search fails: the description with what it leaves open, and this
+    /// recording does not determine, taken as it is stated; with what is said of that. `None` if
+    /// there is no such number.
     fn stated(
         &self,
         run: &Self::Run,

@@ -118,13 +118,15 @@ rules! {
     /// Axis: lowest resonance of a compliant drive that is tried.
     SLOWEST_RESONANCE: f64 = 30.0, "rad/s", DRIVEN;
     /// Axis: highest resonance that is tried, relative to the sampling rate.
-    RESONANCE_STEPS: f64 = 1.0, "1/sample", DRIVEN;
+    RESONANCE_STEPS: f64 = 1.0, "1/sample", "axis in other forms, seed 44001; reported on 45000 to 45059 (decision 0316)";
     /// Axis: bounds of that highest resonance.
     FASTEST_RESONANCE: [f64; 2] = [40.0, 300.0], "rad/s", DRIVEN;
     /// Axis: resonances that are tried.
     RESONANCES: usize = 12, "resonances", DRIVEN;
     /// Axis: damping ratios of a resonance that are tried.
     RESONANCE_DAMPINGS: [f64; 2] = [0.03, 0.12], "1", DRIVEN;
+    /// Axis: of the widths of a backlash, the step to the next one that a compliance with play is tried with.
+    GAPS_OF_A_SPRING: usize = 3, "widths", "axis in other forms, seeds 42045, 44032 and 44049; reported on 45000 to 45059 (decision 0316)";
     /// Positions of a stop that are tried, as shares of half the travel from its middle: closer where a stop touches seldom.
     STOP_SHARES: [f64; 9] = [0.0, 0.15, 0.3, 0.45, 0.6, 0.7, 0.8, 0.87, 0.93], "share", REASON;
     /// Shares of a brake's current that go through a play (hysteresis) that are tried.

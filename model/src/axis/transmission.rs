@@ -50,6 +50,17 @@ pub struct Trailing {
 const CONTACT_RAD_S: f64 = 500.0;
 
 impl Trailing {
+    /// A part by the parameters of `compliance`: share, resonance, damping and gap; those that are missing are 0.
+    pub fn of(numbers: &[f64]) -> Trailing {
+        let number = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
+        Trailing {
+            share: number(0),
+            resonance_rad_s: number(1),
+            damping: number(2),
+            half_gap: 0.5 * number(3),
+        }
+    }
+
     /// A part that is free inside a gap and meets its ends without a bounce.
     pub const fn in_a_gap(share: f64, gap: f64) -> Trailing {
         Trailing {

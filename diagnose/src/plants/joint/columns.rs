@@ -249,15 +249,10 @@ fn of_joint(run: &JointRun, form: Form, shape: &[f64]) -> Option<Columns> {
         }
         Form::Joint(OfJoint::Inertia) => free(second_difference(&run.position, run.step_s)),
         Form::Joint(OfJoint::Compliance) => {
-            let [resonance_rad_s, damping, ref gap @ ..] = *shape else {
+            let [_, _, ..] = *shape else {
                 return None;
             };
-            let part = Trailing {
-                share: 1.0,
-                resonance_rad_s,
-                damping,
-                half_gap: 0.5 * gap.first().copied().unwrap_or(0.0),
-            };
+            let part = Trailing::of(&[&[1.0], shape].concat());
             let apart = trailing(&acceleration(run), &part, run.step_s);
             free(seen(run, apart.into_iter().map(|a| inertia * a).collect()))
         }

@@ -168,12 +168,9 @@ impl Free {
                 OfJoint::Inertia => self.axis.inertia += effect.value(0),
                 OfJoint::Load => self.axis.transmission.add_friction(&effect.parameters),
                 OfJoint::Compliance => {
-                    self.axis.transmission.trailing[0] = Some(Trailing {
-                        share: effect.value(0).min(MOST_TRAILING),
-                        resonance_rad_s: effect.value(1),
-                        damping: effect.value(2),
-                        half_gap: 0.5 * effect.value(3),
-                    });
+                    let mut part = Trailing::of(&effect.parameters);
+                    part.share = part.share.min(MOST_TRAILING);
+                    self.axis.transmission.trailing[0] = Some(part);
                 }
                 OfJoint::Gap => gap = Some(effect),
                 // These act through the laws.

@@ -425,6 +425,6 @@ fn an_inertia_that_is_not_determined_is_taken_as_stated() {
     let found = diagnose(&rig, &[&recording(&rig, &exact)], None, &Options::default());
     let report = &found.report;
     assert_eq!(report.verdict, Verdict::NoneOfLibrary, "{}", report.summary);
-    let said = report.remarks.iter().map(|own| own.what);
-    assert!(said.clone().any(|own| own == "inertia_as_stated"));
+    let mut said = report.remarks.iter().map(|own| own.what);
+    assert!(said.any(|own| own == "inertia_as_stated"));
 }
